@@ -1,0 +1,47 @@
+// Everything a user can choose about the renderer at run time.
+#pragma once
+
+#include <optional>
+
+#include "feeler/core/scalar.hpp"
+#include "feeler/spatial/metric.hpp"
+#include "feeler/spatial/wrench.hpp"
+
+namespace feeler {
+
+/// Settings of a `HapticRenderer`; every field has a default that fits a tool of millimetres to decimetres.
+template <RealScalar ScalarType>
+struct Settings {
+  using Scalar = ScalarType;
+
+  /// Point of the tool, in the tool frame [m], about which rotations are measured and torques are given. Put it where the hand
+  /// holds the tool: the same metric about another point is another problem with another solution.
+  Vector3<Scalar> reference_point = Vector3<Scalar>::Zero();
+
+  /// K of the paper's eq. 4 [N/m, N·m/rad]. Take it from the device: more than it can render makes it buzz.
+  Stiffness<Scalar> stiffness = {};
+
+  /// M of the paper's eq. 3. Unset, it is proportional to K, and the wrench is the exact sum of the contact forces; another metric
+  /// bends the wrench out of the contact cone.
+  std::optional<Metric<Scalar>> metric = {};
+
+  /// Distance kept between tool and object [m]. It smooths the edges of the obstacle: less is more exact and needs more
+  /// iterations; below 1e-8 convergence is lost, above 1e-5 it can be felt. Tighter fits than twice the margin are still rendered.
+  Scalar margin = Scalar(1e-6);
+
+  /// Longest motion of any tool point between two linearisations in contact [m]. More follows a fast hand with fewer iterations, and
+  /// makes one bad linearisation cost more.
+  Scalar trust_radius = Scalar(4e-4);
+
+  /// A step that moves no tool point farther than this ends a tick as converged [m].
+  Scalar step_tolerance = Scalar(5e-6);
+
+  /// Linearisations a tick; when they are spent the rest of the motion is left for the next ticks.
+  int maximum_iterations = 12;
+
+  /// Work a tick, in units of one distance query between the tool and a triangle (about 0.5 µs for 32 vertices); when it is
+  /// spent the tick ends on the certified pose it has. Less bounds the worst tick, and lets the tool lag behind where the solution jumps.
+  int work_budget = 400;
+};
+
+}  // namespace feeler

@@ -1,0 +1,42 @@
+// The result of one tick of the renderer.
+#pragma once
+
+#include "feeler/core/fixed_vector.hpp"
+#include "feeler/core/scalar.hpp"
+#include "feeler/core/status.hpp"
+#include "feeler/spatial/pose.hpp"
+#include "feeler/spatial/wrench.hpp"
+
+namespace feeler {
+
+/// A contact that holds the tool: one active row of the optimisation, at the graphic pose.
+template <RealScalar ScalarType>
+struct ActiveContact {
+  using Scalar = ScalarType;
+
+  int triangle = -1;                                    ///< row of `triangles` as given to the mesh
+  Vector3<Scalar> point_world = Vector3<Scalar>::Zero();   ///< [m]
+  Vector3<Scalar> normal_world = Vector3<Scalar>::Zero();  ///< unit, from the object to the tool
+  Scalar gap = Scalar(0);                                  ///< separation along the normal [m], close to the margin
+  Scalar force = Scalar(0);  ///< share of the contact force [N]; shares are not unique where faces touch, their sum is
+};
+
+/// Result of `HapticRenderer::update`; every field is valid after every status.
+template <RealScalar ScalarType>
+struct Tick {
+  using Scalar = ScalarType;
+  static constexpr int contact_capacity = 32;
+
+  Pose<Scalar> graphic_pose;
+  Wrench<Scalar> wrench;  ///< on the hand, world axes, at the reference point of the haptic pose
+  FixedVector<ActiveContact<Scalar>, contact_capacity> contacts;
+  Status status = Status::not_reset;
+
+  int iterations = 0;  ///< linearisations solved
+  int rows = 0;        ///< rows of the last optimisation
+  int work = 0;        ///< distance queries, in the unit of `Settings::work_budget`
+
+  bool converged() const noexcept { return status == Status::converged; }
+};
+
+}  // namespace feeler

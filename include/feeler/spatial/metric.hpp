@@ -1,0 +1,85 @@
+// The weighted squared distance between two poses that the renderer minimises, with its derivatives.
+#pragma once
+
+#include <cmath>
+
+#include "feeler/core/scalar.hpp"
+#include "feeler/spatial/twist.hpp"
+#include "feeler/spatial/wrench.hpp"
+
+namespace feeler {
+
+/// Diagonal metric M of the paper's eq. 3: ½ eᵀ M e weighs metres against radians; only ratios matter.
+template <RealScalar ScalarType>
+struct Metric {
+  using Scalar = ScalarType;
+
+  Vector3<Scalar> translational = Vector3<Scalar>::Ones();                   ///< [1]
+  Vector3<Scalar> rotational = Vector3<Scalar>::Constant(Scalar(3) / 10000);  ///< squared lengths [m²/rad²]
+
+  /// M ∝ K, scaled so that a metre of translation weighs one. With it the wrench is the exact sum of the contact forces.
+  static Metric proportional_to(const Stiffness<Scalar>& stiffness) noexcept {
+    const Scalar unit = stiffness.translational.maxCoeff();
+    return {stiffness.translational / unit, stiffness.rotational / unit};
+  }
+  static Metric with_length(Scalar length) noexcept {
+    return {Vector3<Scalar>::Ones(), Vector3<Scalar>::Constant(length * length)};
+  }
+
+  /// ½ eᵀ M e [m²].
+  Scalar energy(const Twist<Scalar>& e) const noexcept {
+    return (e.linear.dot(translational.cwiseProduct(e.linear)) +
+            e.angular.dot(rotational.cwiseProduct(e.angular))) /
+           2;
+  }
+
+  /// Gradient of the energy of Exp-moved poses by the step (dp, w) at zero, e = graphic from haptic.
+  Vector6<Scalar> gradient(const Twist<Scalar>& e) const noexcept {
+    Vector6<Scalar> g;
+    const Vector3<Scalar> torque = rotational.cwiseProduct(e.angular);
+    g.template head<3>() = translational.cwiseProduct(e.linear);
+    // J⁻ᵀ φ = φ, so an isotropic weight needs no Jacobian.
+    g.template tail<3>() =
+        is_isotropic() ? torque : Vector3<Scalar>(inverse_left_jacobian<Scalar>(e.angular).transpose() * torque);
+    return g;
+  }
+
+  /// Second derivative of the energy by the step: exact for isotropic rotational weights, Gauss–Newton otherwise.
+  ///
+  /// For ½|Log(Exp(w) Exp(φ))|² it is aaᵀ + (θ/2) cot(θ/2) (I − aaᵀ), θ = |φ|, a = φ/θ; it vanishes across a at θ = π.
+  Matrix6<Scalar> hessian(const Twist<Scalar>& e) const noexcept {
+    using std::sqrt;
+    using std::tan;
+    Matrix6<Scalar> h = Matrix6<Scalar>::Zero();
+    h.template topLeftCorner<3, 3>() = translational.asDiagonal();
+    auto rotation = h.template bottomRightCorner<3, 3>();
+    if (!is_isotropic()) {
+      const Matrix3<Scalar> j = inverse_left_jacobian<Scalar>(e.angular);
+      rotation = j.transpose() * rotational.asDiagonal() * j;
+      return h;
+    }
+    const Scalar angle_squared = e.angular.squaredNorm();
+    Scalar across = Scalar(1) - angle_squared / 12;
+    if (angle_squared > Scalar(1e-4)) {
+      const Scalar half = sqrt(angle_squared) / 2;
+      across = half / tan(half);
+    }
+    rotation = Matrix3<Scalar>::Identity() * across;
+    if (angle_squared > Scalar(0)) {
+      rotation += (Scalar(1) - across) / angle_squared * e.angular * e.angular.transpose();
+    }
+    rotation *= rotational.x();
+    return h;
+  }
+
+  bool is_isotropic() const noexcept {
+    return rotational.x() == rotational.y() && rotational.y() == rotational.z();
+  }
+
+  template <class Other>
+  Metric<Other> cast() const noexcept {
+    return {translational.template cast<Other>(), rotational.template cast<Other>()};
+  }
+};
+
+}  // namespace feeler

@@ -1,0 +1,40 @@
+// A rigid pose: where a frame is, and how it is turned.
+#pragma once
+
+#include <cmath>
+
+#include "feeler/core/scalar.hpp"
+#include "feeler/spatial/rotation.hpp"
+
+namespace feeler {
+
+/// Pose of the tool frame in the world: `point_world = translation + rotation * point_tool` [m, unit quaternion].
+template <RealScalar ScalarType>
+struct Pose {
+  using Scalar = ScalarType;
+
+  Vector3<Scalar> translation = Vector3<Scalar>::Zero();
+  Quaternion<Scalar> rotation = Quaternion<Scalar>::Identity();
+
+  Vector3<Scalar> operator*(const Vector3<Scalar>& point_tool) const noexcept {
+    return translation + rotation * point_tool;
+  }
+
+  /// False for a NaN, an infinity, or a quaternion too short to be normalised.
+  bool is_finite() const noexcept {
+    using std::isfinite;
+    bool finite = true;
+    for (int i = 0; i < 3; ++i) finite = finite && isfinite(translation[i]);
+    const Scalar length = rotation.squaredNorm();
+    return finite && isfinite(length) && length > std::numeric_limits<Scalar>::epsilon();
+  }
+
+  Pose normalized() const noexcept { return {translation, rotation.normalized()}; }
+
+  template <class Other>
+  Pose<Other> cast() const noexcept {
+    return {translation.template cast<Other>(), rotation.template cast<Other>()};
+  }
+};
+
+}  // namespace feeler
