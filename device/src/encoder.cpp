@@ -17,7 +17,9 @@ Vector3<double> rounded(const Vector3<double>& v, double resolution) noexcept {
 
 }  // namespace
 
-DevicePose quantised(const DevicePose& pose, double position_resolution, double rotation_resolution) noexcept {
+// Flattened for the reason given in simulated_hand.cpp.
+[[gnu::flatten]] DevicePose quantised(const DevicePose& pose, double position_resolution,
+                                      double rotation_resolution) noexcept {
   auto exact = from_device<Pose<double>>(pose);
   exact.translation = rounded(exact.translation, position_resolution);
   if (rotation_resolution > 0) {

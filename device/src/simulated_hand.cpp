@@ -55,13 +55,15 @@ SimulatedHand::SimulatedHand(DevicePath path, const Handle& handle, const Grip& 
 
 double SimulatedHand::time() const noexcept { return double(ticks_) * period_; }
 
-DevicePose SimulatedHand::target(double time) const noexcept {
+// Flattened, here and in the encoder: a function of Eigen types left out of line would be merged by the linker with the user's own,
+// compiled with other vector widths.
+[[gnu::flatten]] DevicePose SimulatedHand::target(double time) const noexcept {
   const auto steady = from_device<Pose<double>>(path_(time)).normalized();
   const auto shake = tremor_.at(time);
   return to_device_pose(moved(steady, {{shake[0], shake[1], shake[2]}, {shake[3], shake[4], shake[5]}}));
 }
 
-void SimulatedHand::advance(const DeviceWrench& wrench) noexcept {
+[[gnu::flatten]] void SimulatedHand::advance(const DeviceWrench& wrench) noexcept {
   const double step = period_ / substeps_;
   const double damper = grip_damping(grip_.stiffness, handle_.mass, grip_.damping_ratio);
   const double angular_damper = grip_damping(grip_.rotational_stiffness, handle_.inertia, grip_.damping_ratio);
@@ -74,10 +76,10 @@ void SimulatedHand::advance(const DeviceWrench& wrench) noexcept {
   Vector3<double> spin = vector(velocity_.angular);
 
   for (int i = 1; i <= substeps_; ++i) {
+    const auto pull = motion_between(base_from_handle, base_from_target);
     const auto next_target = from_device<Pose<double>>(target(time() + i * step));
     const auto target_velocity = motion_between(base_from_target, next_target) * (1 / step);
     base_from_target = next_target;
-    const auto pull = motion_between(base_from_handle, base_from_target);
 
     const Vector3<double> force = grip_.stiffness * pull.linear + damper * (target_velocity.linear - velocity) -
                                   handle_.damping * velocity + pushed_force;

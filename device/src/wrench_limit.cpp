@@ -16,12 +16,13 @@ void shorten(double (&v)[3], double maximum) noexcept {
     std::fill(v, v + 3, 0.0);
     return;
   }
-  // Scaled by the largest component first: the square of 1e200 is not a number to divide by.
-  const double largest = std::max({std::abs(v[0]), std::abs(v[1]), std::abs(v[2])});
-  if (largest == 0) return;
-  const double length = std::hypot(v[0] / largest, v[1] / largest, v[2] / largest) * largest;
-  if (length <= maximum) return;
-  for (double& component : v) component *= maximum / length;
+  // In units of the largest component, because the square of a large double is not one.
+  const double unit = std::max({std::abs(v[0]), std::abs(v[1]), std::abs(v[2])});
+  if (unit == 0) return;
+  const double length = std::hypot(v[0] / unit, v[1] / unit, v[2] / unit);
+  const double allowed = maximum / unit;
+  if (length <= allowed) return;
+  for (double& component : v) component *= allowed / length;
 }
 
 }  // namespace
