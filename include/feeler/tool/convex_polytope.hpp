@@ -1,0 +1,245 @@
+// The convex hull of any set of points as a tool.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include <Eigen/Geometry>
+
+#include "feeler/core/requirement.hpp"
+#include "feeler/tool/convex_tool.hpp"
+#include "feeler/tool/hull_faces.hpp"
+#include "feeler/tool/support_blocks.hpp"
+
+namespace feeler {
+
+/// A convex polyhedron with up to 256 vertices. Coordinates are in the tool frame [m].
+template <RealScalar Scalar_>
+class ConvexPolytope {
+ public:
+  using Scalar = Scalar_;
+  static constexpr int max_vertex_count = SupportBlocks<Scalar>::max_count;
+
+  /// The convex hull of points, one a row [m]; any number of them, in any order, inside points and duplicates included.
+  ///
+  /// Vertices are bit-identical to points given. Points less than 4 eps × size outside a face are dropped, faces coplanar to that are
+  /// merged; size is the diagonal of the bounding box plus the largest coordinate, where the rounding of the points comes from.
+  /// Refuses fewer than 4 points, points not finite, all equal, on a line or in a plane, and hulls of more than 256 vertices.
+  /// @cost  allocates; milliseconds for thousands of points
+  static ConvexPolytope hull_of(const Points<Scalar>& points) {
+    const Lattice lattice(points);
+    std::vector<detail::LatticePoint> corners = lattice.points;
+    std::vector<int> rows(corners.size());  // of the input
+    for (std::size_t i = 0; i < rows.size(); ++i) rows[i] = int(i);
+
+    // Dropping the vertices that are no corners can make others droppable: repeat until none is. Two rounds are the rule.
+    for (std::array<int, 4> simplex = lattice.simplex(corners);; simplex = lattice.simplex(corners)) {
+      const auto triangles = detail::Quickhull(corners, simplex, lattice.tolerance).triangles();
+      const detail::HullFaces faces(corners, triangles, lattice.tolerance);
+      const std::vector<int> kept = faces.corners();
+      if (kept.size() == corners.size() || kept.size() < 4) {
+        check_size(int(corners.size()));
+        return ConvexPolytope(points, rows, faces.polygons());
+      }
+      for (std::size_t i = 0; i < kept.size(); ++i) {
+        corners[i] = corners[std::size_t(kept[i])];
+        rows[i] = rows[std::size_t(kept[i])];
+      }
+      corners.resize(kept.size());
+      rows.resize(kept.size());
+    }
+  }
+
+  int vertex_count() const noexcept { return vertices_.count(); }
+  Vector3<Scalar> vertex(int i) const noexcept { return vertices_[i]; }
+  /// @cost  all dot products with SIMD: tens of nanoseconds
+  int support(const Vector3<Scalar>& direction) const noexcept { return vertices_.support(direction); }
+
+  int edge_count() const noexcept { return int(edges_.size()); }
+  ToolEdge edge(int i) const noexcept { return edges_[std::size_t(i)]; }
+  int face_count() const noexcept { return int(normals_.size()); }
+  ToolFace<Scalar> face(int i) const noexcept {
+    const auto begin = std::size_t(face_begin_[std::size_t(i)]), end = std::size_t(face_begin_[std::size_t(i) + 1]);
+    return {normals_[std::size_t(i)], std::span<const int>(face_corners_.data() + begin, end - begin)};
+  }
+  int edge_direction_count() const noexcept { return int(edge_directions_.size()); }
+  const Vector3<Scalar>& edge_direction(int i) const noexcept { return edge_directions_[std::size_t(i)]; }
+  int face_axis_count() const noexcept { return int(face_axes_.size()); }
+  const Vector3<Scalar>& face_axis(int i) const noexcept { return face_axes_[std::size_t(i)]; }
+
+  /// The same features in another scalar. In a narrower one, faces are planar to its rounding only.
+  template <class Other>
+  ConvexPolytope<Other> cast() const {
+    ConvexPolytope<Other> result;
+    Points<Other> points(vertex_count(), 3);
+    for (int i = 0; i < vertex_count(); ++i) points.row(i) = vertex(i).template cast<Other>().transpose();
+    result.vertices_ = SupportBlocks<Other>(points);
+    result.edges_ = edges_;
+    result.face_begin_ = face_begin_;
+    result.face_corners_ = face_corners_;
+    const auto cast_all = [](const std::vector<Vector3<Scalar>>& from, std::vector<Vector3<Other>>& to) {
+      for (const Vector3<Scalar>& v : from) to.push_back(v.template cast<Other>());
+    };
+    cast_all(normals_, result.normals_);
+    cast_all(edge_directions_, result.edge_directions_);
+    cast_all(face_axes_, result.face_axes_);
+    return result;
+  }
+
+ private:
+  template <RealScalar>
+  friend class ConvexPolytope;
+  using Working = WorkingScalar<Scalar>;
+
+  /// The points on an integer lattice over their bounding box, where sides of planes are decided exactly.
+  struct Lattice {
+    std::vector<detail::LatticePoint> points;
+    long double tolerance = 0;  // in lattice units
+
+    explicit Lattice(const Points<Scalar>& input) {
+      if (input.rows() < 4)
+        refuse("ConvexPolytope: " + std::to_string(input.rows()) +
+               " points have no volume; give at least 4, or use Segment for a line");
+      for (int i = 0; i < int(input.rows()); ++i)
+        if (!input.row(i).allFinite())
+          refuse("ConvexPolytope: point " + std::to_string(i) +
+                 " has a NaN or an infinity; remove it or correct its coordinates");
+      const Points<Working> wide = input.template cast<Working>();
+      const Eigen::Matrix<Working, 1, 3> lower = wide.colwise().minCoeff();
+      const Eigen::Matrix<Working, 1, 3> sides = wide.colwise().maxCoeff() - lower;
+      const Working side = sides.maxCoeff();
+      if (!(side > Working(0)))
+        refuse("ConvexPolytope: all points are equal; give at least 4 that are not in one plane");
+      using std::ldexp;
+      const auto on_lattice = [&](const Working& x) {
+        return static_cast<std::int64_t>(ldexp(Working(x / side), detail::lattice_bits));
+      };
+      points.reserve(std::size_t(wide.rows()));
+      for (int i = 0; i < int(wide.rows()); ++i)
+        points.push_back({on_lattice(wide(i, 0) - lower[0]), on_lattice(wide(i, 1) - lower[1]),
+                          on_lattice(wide(i, 2) - lower[2])});
+      const Working size = (sides / side).norm() + wide.cwiseAbs().maxCoeff() / side;
+      tolerance = static_cast<long double>(
+          ldexp(Working(4 * Working(std::numeric_limits<Scalar>::epsilon()) * size), detail::lattice_bits));
+      tolerance = std::max(tolerance, 4.0L);
+    }
+
+    /// Four points far apart: the ends of the longest axis, the point farthest from their line, the point farthest from their plane.
+    std::array<int, 4> simplex(const std::vector<detail::LatticePoint>& corners) const {
+      std::array<int, 4> result{};
+      std::int64_t longest = -1;
+      for (const auto axis : {&detail::LatticePoint::x, &detail::LatticePoint::y, &detail::LatticePoint::z}) {
+        const auto [low, high] =
+            std::minmax_element(corners.begin(), corners.end(),
+                                [axis](const auto& a, const auto& b) { return a.*axis < b.*axis; });
+        if ((*high).*axis - (*low).*axis <= longest) continue;
+        longest = (*high).*axis - (*low).*axis;
+        result[0] = int(low - corners.begin());
+        result[1] = int(high - corners.begin());
+      }
+      const auto& a = corners[std::size_t(result[0])];
+      const auto& b = corners[std::size_t(result[1])];
+      long double width = 0;
+      for (std::size_t i = 0; i < corners.size(); ++i) {
+        const long double height = detail::LatticePlane(a, b, corners[i]).length();
+        if (height > width) {
+          width = height;
+          result[2] = int(i);
+        }
+      }
+      const long double base = std::sqrt(square(b.x - a.x) + square(b.y - a.y) + square(b.z - a.z));
+      if (!(width > tolerance * base))
+        refuse("ConvexPolytope: all points are on one line; give points with a volume, or use Segment");
+      const detail::LatticePlane plane(a, b, corners[std::size_t(result[2])]);
+      long double thickness = 0;
+      for (std::size_t i = 0; i < corners.size(); ++i) {
+        const long double height = std::abs(plane.height(corners[i]));
+        if (height > thickness) {
+          thickness = height;
+          result[3] = int(i);
+        }
+      }
+      if (!(thickness > tolerance))
+        refuse("ConvexPolytope: all points are in one plane; give points with a volume, for a sheet two layers of them");
+      return result;
+    }
+
+    static long double square(std::int64_t x) {
+      return static_cast<long double>(x) * static_cast<long double>(x);
+    }
+  };
+
+  ConvexPolytope() = default;
+
+  ConvexPolytope(const Points<Scalar>& points, const std::vector<int>& rows,
+                 const std::vector<detail::HullFace>& faces) {
+    Points<Scalar> corners(Eigen::Index(rows.size()), 3);
+    for (std::size_t i = 0; i < rows.size(); ++i) corners.row(Eigen::Index(i)) = points.row(rows[i]);
+    vertices_ = SupportBlocks<Scalar>(corners);
+
+    std::vector<std::pair<long double, Vector3<Working>>> axes, directions;  // size, unit direction
+    face_begin_.push_back(0);
+    for (const detail::HullFace& face : faces) {
+      const long double length = std::sqrt(face.normal[0] * face.normal[0] + face.normal[1] * face.normal[1] +
+                                           face.normal[2] * face.normal[2]);
+      const Vector3<Working> normal(static_cast<Working>(face.normal[0] / length),
+                                    static_cast<Working>(face.normal[1] / length),
+                                    static_cast<Working>(face.normal[2] / length));
+      normals_.push_back(normal.template cast<Scalar>());
+      axes.emplace_back(length, normal);
+      face_corners_.insert(face_corners_.end(), face.corners.begin(), face.corners.end());
+      face_begin_.push_back(int(face_corners_.size()));
+      for (std::size_t i = 0; i < face.corners.size(); ++i) {
+        const ToolEdge edge{face.corners[i], face.corners[(i + 1) % face.corners.size()]};
+        if (edge.start > edge.end) continue;  // the other face lists it
+        edges_.push_back(edge);
+        const Vector3<Working> along =
+            (vertex(edge.end).template cast<Working>() - vertex(edge.start).template cast<Working>());
+        directions.emplace_back(static_cast<long double>(along.norm()), along.normalized());
+      }
+    }
+    face_axes_ = without_parallels(axes);
+    edge_directions_ = without_parallels(directions);
+  }
+
+  /// One of each set of directions that are parallel to rounding: that of the largest feature, which is the most exact.
+  static std::vector<Vector3<Scalar>> without_parallels(
+      std::vector<std::pair<long double, Vector3<Working>>>& directions) {
+    const Working tolerance = 32 * Working(std::numeric_limits<Scalar>::epsilon());
+    std::stable_sort(directions.begin(), directions.end(),
+                     [](const auto& a, const auto& b) { return a.first > b.first; });
+    std::vector<Vector3<Working>> kept;
+    std::vector<Vector3<Scalar>> result;
+    for (const auto& [size, direction] : directions) {
+      const bool is_new = std::none_of(kept.begin(), kept.end(), [&d = direction, tolerance](const auto& k) {
+        return k.cross(d).squaredNorm() <= tolerance * tolerance;
+      });
+      if (!is_new) continue;
+      kept.push_back(direction);
+      result.push_back(direction.template cast<Scalar>());
+    }
+    return result;
+  }
+
+  static void check_size(int count) {
+    if (count > max_vertex_count)
+      refuse("ConvexPolytope: the hull has " + std::to_string(count) + " vertices and may have " +
+             std::to_string(max_vertex_count) + "; simplify the shape, or split it into convex pieces");
+  }
+
+  SupportBlocks<Scalar> vertices_;
+  std::vector<ToolEdge> edges_;
+  std::vector<int> face_begin_;
+  std::vector<int> face_corners_;
+  std::vector<Vector3<Scalar>> normals_;
+  std::vector<Vector3<Scalar>> edge_directions_;
+  std::vector<Vector3<Scalar>> face_axes_;
+};
+
+static_assert(ConvexTool<ConvexPolytope<double>>);
+
+}  // namespace feeler

@@ -1,0 +1,68 @@
+// The coordinates of a tool's vertices, laid out so that a compiler answers support queries with SIMD instructions.
+#pragma once
+
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "feeler/core/scalar.hpp"
+
+namespace feeler {
+
+/// Up to 256 points in blocks of eight: eight x, then eight y, then eight z. The last point fills up the last block.
+template <RealScalar Scalar>
+class SupportBlocks {
+ public:
+  static constexpr int block_size = 8;
+  static constexpr int max_count = 256;
+
+  SupportBlocks() = default;
+  /// @param points  1 to `max_count` rows
+  explicit SupportBlocks(const Points<Scalar>& points) : count_(int(points.rows())) {
+    block_count_ = (count_ + block_size - 1) / block_size;
+    coordinates_.resize(std::size_t(block_count_) * 3 * block_size);
+    for (int i = 0; i < block_count_ * block_size; ++i)
+      for (int k = 0; k < 3; ++k) coordinates_[offset(i, k)] = points(i < count_ ? i : count_ - 1, k);
+  }
+
+  int count() const noexcept { return count_; }
+  Vector3<Scalar> operator[](int i) const noexcept {
+    return {coordinates_[offset(i, 0)], coordinates_[offset(i, 1)], coordinates_[offset(i, 2)]};
+  }
+
+  /// Index of a point farthest along a direction; of equal ones, the first of its block. A direction with a NaN gives a valid index.
+  /// @cost  all dot products, eight at a time; no branch depends on them
+  int support(const Vector3<Scalar>& direction) const noexcept {
+    using Block = Eigen::Array<Scalar, block_size, 1>;
+    using BlockMap = Eigen::Map<const Block>;
+    const Scalar* data = coordinates_.data();
+    const Scalar x = direction.x(), y = direction.y(), z = direction.z();
+    alignas(64) Scalar dots[max_count];
+    Scalar best{};
+    int best_block = 0;
+    for (int b = 0; b < block_count_; ++b, data += 3 * block_size) {
+      Eigen::Map<Block, Eigen::Aligned64> block(dots + b * block_size);
+      block = BlockMap(data) * x + BlockMap(data + block_size) * y + BlockMap(data + 2 * block_size) * z;
+      const Scalar block_best = block.maxCoeff();
+      const bool is_better = b == 0 || block_best > best;
+      best = is_better ? block_best : best;
+      best_block = is_better ? b : best_block;
+    }
+    const Scalar* block = dots + best_block * block_size;
+    int index = 0;
+    for (int j = block_size - 1; j > 0; --j) index = block[j] == best ? j : index;
+    index = block[0] == best ? 0 : index;
+    return best_block * block_size + index;
+  }
+
+ private:
+  static std::size_t offset(int i, int k) noexcept {
+    return std::size_t(((i / block_size) * 3 + k) * block_size + i % block_size);
+  }
+
+  int count_ = 0;
+  int block_count_ = 0;
+  std::vector<Scalar> coordinates_;
+};
+
+}  // namespace feeler
