@@ -152,7 +152,7 @@ CheckedTool checked_tool(const Tool& tool) {
   return {vertices, edges, faces};
 }
 
-/// A triangle soup with the bounds of every triangle; triangles may be degenerate.
+/// A triangle soup and its bounds; triangles may be degenerate.
 struct CheckedObject {
   /// @param object_vertices  n×3 [m]   @param object_triangles  m×3 indices
   CheckedObject(const Eigen::Matrix<double, Eigen::Dynamic, 3>& object_vertices,
@@ -160,25 +160,23 @@ struct CheckedObject {
       : vertices(object_vertices), triangles(object_triangles) {
     if (!vertices.allFinite())
       throw std::invalid_argument("checker: the object has a vertex that is not finite");
-    for (int k = 0; k < 3; ++k) lower[k].resize(triangle_count()), upper[k].resize(triangle_count());
     for (int i = 0; i < triangles.rows(); ++i) {
-      for (int k = 0; k < 3; ++k) {
-        const auto [low, high] = std::minmax(
-            {vertices(triangles(i, 0), k), vertices(triangles(i, 1), k), vertices(triangles(i, 2), k)});
-        lower[k][std::size_t(i)] = low;
-        upper[k][std::size_t(i)] = high;
-      }
+      if (i % block == 0) block_bounds.emplace_back();
+      bounds.emplace_back();
+      for (int k = 0; k < 3; ++k) bounds.back().extend(vertices.row(triangles(i, k)).transpose());
+      block_bounds.back().extend(bounds.back());
     }
   }
 
-  std::size_t triangle_count() const { return std::size_t(triangles.rows()); }
   WideVector corner(int triangle, int k) const {
     return vertices.row(triangles(triangle, k)).cast<WideReal>();
   }
 
   Eigen::Matrix<double, Eigen::Dynamic, 3> vertices;
   Eigen::Matrix<int, Eigen::Dynamic, 3> triangles;
-  std::array<std::vector<double>, 3> lower, upper;  ///< exact bounds, an array an axis
+  static constexpr int block = 32;
+  std::vector<Eigen::AlignedBox3d> bounds;        ///< of every triangle
+  std::vector<Eigen::AlignedBox3d> block_bounds;  ///< of every `block` triangles in a row
 };
 
 namespace detail {
@@ -230,7 +228,8 @@ inline WideReal depth_in_triangle(const CheckedTool& tool, const std::array<Wide
 /// The deepest penetration of the tool at a pose: max over triangles of max(0, −s), s = max over unit n of
 /// [min_i n·(p + R v_i) − max_{y∈τ} n·y]; a penetration below the rounding of long double counts as touching.
 ///
-/// @cost O(triangles), about 1 ns each, and about a microsecond for each whose bounds meet those of the tool
+/// @cost O(triangles): 1 ns each far away, 3 ns near, 0.3 µs where bounds meet, some 10 µs where the tool
+/// penetrates
 inline Penetration deepest_penetration(const CheckedObject& object, const CheckedTool& tool,
                                        const CheckedPose& pose) {
   Penetration deepest;
@@ -242,7 +241,7 @@ inline Penetration deepest_penetration(const CheckedObject& object, const Checke
   const Eigen::Matrix<WideReal, 3, 3> tool_from_world = pose.rotation.toRotationMatrix().transpose();
 
   // Bounds of the turned tool, rounded outwards; triangles beyond them are farther than any rounding here.
-  std::array<double, 3> low, high;
+  Eigen::AlignedBox3d tool_bounds;
   for (int k = 0; k < 3; ++k) {
     const auto heights = [&](const WideVector& v) {
       return tool_from_world.col(k).dot(v) + pose.translation[k];
@@ -252,25 +251,16 @@ inline Penetration deepest_penetration(const CheckedObject& object, const Checke
       bottom = std::min(bottom, heights(v)), top = std::max(top, heights(v));
     const WideReal slack =
         4 * std::numeric_limits<double>::epsilon() * std::max(std::abs(bottom), std::abs(top));
-    low[std::size_t(k)] = static_cast<double>(bottom - slack);
-    high[std::size_t(k)] = static_cast<double>(top + slack);
+    tool_bounds.min()[k] = static_cast<double>(bottom - slack);
+    tool_bounds.max()[k] = static_cast<double>(top + slack);
   }
 
-  constexpr std::size_t block = 512;
-  std::array<double, block> beyond;
-  for (std::size_t start = 0; start < object.triangle_count(); start += block) {
-    const std::size_t count = std::min(block, object.triangle_count() - start);
-    const double *x0 = &object.lower[0][start], *y0 = &object.lower[1][start], *z0 = &object.lower[2][start];
-    const double *x1 = &object.upper[0][start], *y1 = &object.upper[1][start], *z1 = &object.upper[2][start];
-    for (std::size_t i = 0; i < count; ++i) {
-      const double x = std::max(x0[i] - high[0], low[0] - x1[i]);
-      const double y = std::max(y0[i] - high[1], low[1] - y1[i]);
-      const double z = std::max(z0[i] - high[2], low[2] - z1[i]);
-      beyond[i] = std::max(x, std::max(y, z));
-    }
-    for (std::size_t i = 0; i < count; ++i) {
-      if (beyond[i] > 0) continue;
-      const int triangle = int(start + i);
+  for (std::size_t group = 0; group < object.block_bounds.size(); ++group) {
+    if (!object.block_bounds[group].intersects(tool_bounds)) continue;
+    const std::size_t start = group * CheckedObject::block;
+    for (std::size_t i = start; i < std::min(start + CheckedObject::block, object.bounds.size()); ++i) {
+      if (!object.bounds[i].intersects(tool_bounds)) continue;
+      const int triangle = int(i);
       std::array<WideVector, 3> corners;
       for (int k = 0; k < 3; ++k)
         corners[std::size_t(k)] = tool_from_world * (object.corner(triangle, k) - pose.translation);
