@@ -3,6 +3,8 @@
 
 #include <boost/test/unit_test.hpp>
 
+#include <Eigen/Geometry>
+
 #include <cmath>
 #include <limits>
 #include <map>
