@@ -36,7 +36,7 @@ class Bvh {
                      c = vertices[std::size_t(triangles[t][2])][k];
         using std::max;
         using std::min;
-        const Working from = origin[k];
+        const auto from = static_cast<Working>(origin[k]);
         item.lower[k] = rounded_down(Working(Working(min(a, min(b, c))) - from));
         item.upper[k] = rounded_up(Working(Working(max(a, max(b, c))) - from));
       }
