@@ -171,11 +171,23 @@ BOOST_AUTO_TEST_CASE(coincident_triangles_are_halved_to_leaves) {
 }
 
 BOOST_AUTO_TEST_CASE(depth_is_bounded_where_every_split_takes_off_a_sliver) {
-  // Distances that shrink by half leave all but one triangle in the first bin, level after level.
-  std::vector<Eigen::Matrix3d> triangles;
-  for (int i = 0; i < 240; ++i)
-    for (int copies = 0; copies < 6; ++copies) triangles.push_back(std::ldexp(1.0, 120 - i) * (Eigen::Matrix3d::Identity() + Eigen::Matrix3d::Constant(1)));
-  check_hierarchy(soup(triangles));
+  // Distances that shrink by half leave all but a few items in the first bin, level after level.
+  std::vector<feeler::BvhItem> items;
+  for (int i = 0; i < 240; ++i) {
+    const float x = std::ldexp(1.0F, -i / 2);
+    items.push_back({{x, x, x}, {x, x, x}, i});
+  }
+  const auto depth_with = [&items](int limit) {
+    auto copy = items;
+    feeler::BvhBuilder builder(copy, limit);
+    std::vector<int> depths(builder.nodes().size(), 1);
+    for (std::size_t i = 0; i < depths.size(); ++i)  // children come after their parent
+      if (const BvhNode& node = builder.nodes()[i]; !node.is_leaf())
+        depths[std::size_t(node.first)] = depths[std::size_t(node.first) + 1] = depths[i] + 1;
+    return *std::max_element(depths.begin(), depths.end());
+  };
+  BOOST_TEST(depth_with(64) > 16);
+  for (const int limit : {8, 10, 12, 16}) BOOST_TEST(depth_with(limit) <= limit);
 }
 
 BOOST_AUTO_TEST_CASE(surface_area_cost_is_no_worse_than_that_of_halving) {

@@ -39,8 +39,10 @@ class BvhBuilder {
   static constexpr int max_leaf_size = 4;
   static constexpr int max_depth = 64;  ///< nodes on a path from the root to a leaf
 
-  /// @param items  at least one; reordered so that leaf items are `items[first..first+count)`
-  explicit BvhBuilder(std::vector<BvhItem>& items) : items_(items) {
+  /// @param items        at least one; reordered so that leaf items are `items[first..first+count)`
+  /// @param depth_limit  nodes on a path; kept unless halving the list alone needs more
+  explicit BvhBuilder(std::vector<BvhItem>& items, int depth_limit = max_depth)
+      : items_(items), depth_limit_(depth_limit) {
     nodes_.reserve(items.size());
     nodes_.push_back({});
     std::vector<Task> tasks{{0, 0, std::int32_t(items.size()), 1}};
@@ -123,7 +125,7 @@ class BvhBuilder {
     for (std::size_t k = 1; k < 3; ++k)
       if (centres.upper[k] - centres.lower[k] > centres.upper[axis] - centres.lower[axis]) axis = k;
     const bool is_spread = centres.upper[axis] > centres.lower[axis];
-    if (is_spread && task.depth + levels_to_halve < max_depth) {
+    if (is_spread && task.depth + levels_to_halve < depth_limit_) {
       const std::int32_t middle = split_at_best_plane(task, centres);
       if (middle > task.begin && middle < task.end) return middle;
     }
@@ -187,6 +189,7 @@ class BvhBuilder {
   }
 
   std::vector<BvhItem>& items_;
+  int depth_limit_;
   std::vector<BvhNode> nodes_;
 };
 
