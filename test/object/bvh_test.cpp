@@ -10,12 +10,14 @@
 
 using feeler::BvhNode;
 using feeler::Points;
-using feeler::Triangles;
 using feeler::TriangleMesh;
+using feeler::Triangles;
 using Wide = feeler::Vector3<long double>;
 
 namespace {
-double unit(std::mt19937& bits) { return double(bits()) / 2147483648.0 - 1.0; }
+double unit(std::mt19937& bits) {
+  return double(bits()) / 2147483648.0 - 1.0;
+}
 
 /// A height field of n × n vertices over a square of side 1.
 template <class Scalar>
@@ -25,7 +27,8 @@ TriangleMesh<Scalar> terrain(int n, Scalar scale = Scalar(1), Scalar offset = Sc
   for (int i = 0; i < n; ++i)
     for (int j = 0; j < n; ++j) {
       const double x = double(i) / n, y = double(j) / n;
-      vertices.row(i * n + j) << Scalar(x), Scalar(y), Scalar(0.1 * std::sin(9 * x) * std::cos(7 * y) + 0.01 * std::sin(60 * x + 50 * y));
+      vertices.row(i * n + j) << Scalar(x), Scalar(y),
+          Scalar(0.1 * std::sin(9 * x) * std::cos(7 * y) + 0.01 * std::sin(60 * x + 50 * y));
       vertices.row(i * n + j) = (vertices.row(i * n + j) * scale).array() + offset;
     }
   int t = 0;
@@ -62,7 +65,8 @@ void check_hierarchy(const TriangleMesh<Scalar>& mesh) {
     if (!node.is_leaf()) {
       for (std::size_t child : {std::size_t(node.first), std::size_t(node.first) + 1}) {
         for (int k = 0; k < 3; ++k)
-          is_nested = is_nested && nodes[child].lower[k] >= node.lower[k] && nodes[child].upper[k] <= node.upper[k];
+          is_nested =
+              is_nested && nodes[child].lower[k] >= node.lower[k] && nodes[child].upper[k] <= node.upper[k];
         stack.push_back({child, depth + 1});
       }
       continue;
@@ -104,17 +108,22 @@ double surface_area_cost(const TriangleMesh<Scalar>& mesh) {
 
 /// The same cost of a tree that halves the list along its longest side, by recursion.
 template <class Scalar>
-double median_cost(const TriangleMesh<Scalar>& mesh, std::vector<int>::iterator first, std::vector<int>::iterator last) {
+double median_cost(const TriangleMesh<Scalar>& mesh, std::vector<int>::iterator first,
+                   std::vector<int>::iterator last) {
   Eigen::AlignedBox3f box;
-  const auto middle_of = [&mesh](int t, int axis) { return mesh.corners(t).row(axis).minCoeff() + mesh.corners(t).row(axis).maxCoeff(); };
+  const auto middle_of = [&mesh](int t, int axis) {
+    return mesh.corners(t).row(axis).minCoeff() + mesh.corners(t).row(axis).maxCoeff();
+  };
   for (auto i = first; i != last; ++i)
-    for (int k = 0; k < 3; ++k) box.extend((mesh.corners(*i).col(k) - mesh.bvh().origin()).template cast<float>());
+    for (int k = 0; k < 3; ++k)
+      box.extend((mesh.corners(*i).col(k) - mesh.bvh().origin()).template cast<float>());
   const double area = half_area(box.min().data(), box.max().data());
   if (last - first <= mesh.bvh().max_leaf_size) return area * double(1 + (last - first));
   int axis = 0;
   box.sizes().maxCoeff(&axis);
   const auto middle = first + (last - first) / 2;
-  std::nth_element(first, middle, last, [&](int a, int b) { return middle_of(a, axis) < middle_of(b, axis); });
+  std::nth_element(first, middle, last,
+                   [&](int a, int b) { return middle_of(a, axis) < middle_of(b, axis); });
   return area + median_cost(mesh, first, middle) + median_cost(mesh, middle, last);
 }
 
@@ -150,7 +159,8 @@ BOOST_AUTO_TEST_CASE(random_triangles_of_mixed_sizes_are_each_in_one_leaf) {
       const double size = std::pow(10.0, 6 * unit(bits));
       const Eigen::Vector3d place(unit(bits), unit(bits), unit(bits));
       Eigen::Matrix3d t;
-      for (int k = 0; k < 3; ++k) t.col(k) = place + size * Eigen::Vector3d(unit(bits), unit(bits), unit(bits));
+      for (int k = 0; k < 3; ++k)
+        t.col(k) = place + size * Eigen::Vector3d(unit(bits), unit(bits), unit(bits));
       triangles.push_back(t);
     }
     check_hierarchy(soup(triangles));

@@ -23,7 +23,9 @@ using Mesh = feeler::TriangleMesh<double>;
 using Vector = feeler::Vector3<double>;
 
 namespace {
-double unit(std::mt19937& bits) { return double(bits()) / 2147483648.0 - 1.0; }
+double unit(std::mt19937& bits) {
+  return double(bits()) / 2147483648.0 - 1.0;
+}
 
 Points<double> points(std::initializer_list<Vector> list) {
   Points<double> result(Eigen::Index(list.size()), 3);
@@ -44,12 +46,23 @@ Points<double> cube_points() {
   return result;
 }
 Triangles cube_triangles() {
-  return rows({{0, 2, 3}, {0, 3, 1}, {4, 5, 7}, {4, 7, 6}, {0, 1, 5}, {0, 5, 4},
-               {2, 6, 7}, {2, 7, 3}, {0, 4, 6}, {0, 6, 2}, {1, 3, 7}, {1, 7, 5}});
+  return rows({{0, 2, 3},
+               {0, 3, 1},
+               {4, 5, 7},
+               {4, 7, 6},
+               {0, 1, 5},
+               {0, 5, 4},
+               {2, 6, 7},
+               {2, 7, 3},
+               {0, 4, 6},
+               {0, 6, 2},
+               {1, 3, 7},
+               {1, 7, 5}});
 }
 /// Two triangles over the edge (0,0,0)–(0,1,0), whose far corners are at the height given; normals up.
 Mesh fold(double height) {
-  return Mesh(points({{0, 0, 0}, {0, 1, 0}, {1, 0.5, height}, {-1, 0.5, height}}), rows({{1, 0, 2}, {0, 1, 3}}));
+  return Mesh(points({{0, 0, 0}, {0, 1, 0}, {1, 0.5, height}, {-1, 0.5, height}}),
+              rows({{1, 0, 2}, {0, 1, 3}}));
 }
 /// A bumpy sheet around the origin, of six triangles around vertex 0.
 Mesh fan(const std::array<double, 6>& heights) {
@@ -57,7 +70,8 @@ Mesh fan(const std::array<double, 6>& heights) {
   Triangles t(6, 3);
   p.row(0).setZero();
   for (int i = 0; i < 6; ++i) {
-    p.row(i + 1) << std::cos(i * 1.0471975511965976), std::sin(i * 1.0471975511965976), heights[std::size_t(i)];
+    p.row(i + 1) << std::cos(i * 1.0471975511965976), std::sin(i * 1.0471975511965976),
+        heights[std::size_t(i)];
     t.row(i) << 0, i + 1, (i + 1) % 6 + 1;
   }
   return Mesh(p, t);
@@ -92,7 +106,9 @@ std::string refusal(const Build& build) {
   }
   return "accepted";
 }
-bool contains(const std::string& text, const char* part) { return text.find(part) != std::string::npos; }
+bool contains(const std::string& text, const char* part) {
+  return text.find(part) != std::string::npos;
+}
 }  // namespace
 
 BOOST_AUTO_TEST_SUITE(triangle_mesh)
@@ -159,7 +175,8 @@ BOOST_AUTO_TEST_CASE(knife_edge_of_a_sheet_with_two_sides_is_convex) {
 
 BOOST_AUTO_TEST_CASE(saddle_vertex_is_mixed_and_tip_and_pit_are_not) {
   const auto middle = [](double height, double wave) {
-    const Mesh mesh = fan({height + wave, height - wave, height + wave, height - wave, height + wave, height - wave});
+    const Mesh mesh =
+        fan({height + wave, height - wave, height + wave, height - wave, height + wave, height - wave});
     return mesh.topology().vertex_convexity(0);
   };
   BOOST_TEST((middle(-0.5, 0) == Convexity::convex));
@@ -175,11 +192,13 @@ BOOST_AUTO_TEST_CASE(open_sheet_has_a_boundary) {
   BOOST_TEST(mesh.topology().neighbour(0, 1) == MeshTopology::boundary);
   BOOST_TEST(mesh.topology().neighbour(0, 0) == 5);
   BOOST_TEST(mesh.topology().neighbour(0, 2) == 1);
-  BOOST_TEST(contains(to_string(mesh.report()), "6 triangles on 7 vertices; not a closed surface. It has 6 open edges."));
+  BOOST_TEST(contains(to_string(mesh.report()),
+                      "6 triangles on 7 vertices; not a closed surface. It has 6 open edges."));
 }
 
 BOOST_AUTO_TEST_CASE(three_triangles_at_an_edge_are_non_manifold) {
-  const Mesh mesh(points({{0, 0, 0}, {0, 1, 0}, {1, 0, 0}, {-1, 0, 0}, {0, 0, 1}}), rows({{0, 1, 2}, {1, 0, 3}, {0, 1, 4}}));
+  const Mesh mesh(points({{0, 0, 0}, {0, 1, 0}, {1, 0, 0}, {-1, 0, 0}, {0, 0, 1}}),
+                  rows({{0, 1, 2}, {1, 0, 3}, {0, 1, 4}}));
   BOOST_TEST(mesh.report().non_manifold_edges == 1);
   BOOST_TEST(mesh.report().non_manifold_vertices == 2);
   for (int t = 0; t < 3; ++t) {
@@ -216,7 +235,8 @@ BOOST_AUTO_TEST_CASE(duplicate_degenerate_and_inverted_triangles_are_kept_and_re
   BOOST_TEST(mesh.report().non_manifold_edges == 3);
   BOOST_TEST(mesh.normal(14).isZero(0));
   for (int i = 0; i < 16; ++i)
-    for (int k = 0; k < 3; ++k) BOOST_TEST((mesh.corners(i).col(k) == cube_points().row(t(i, k)).transpose()));
+    for (int k = 0; k < 3; ++k)
+      BOOST_TEST((mesh.corners(i).col(k) == cube_points().row(t(i, k)).transpose()));
 
   Triangles inverted = cube_triangles();
   std::swap(inverted(4, 0), inverted(4, 1));
@@ -269,7 +289,8 @@ BOOST_AUTO_TEST_CASE(cones_agree_with_the_closest_point) {
     for (int i = 0; i < 400; ++i) {
       const Vector any = Vector(unit(bits), unit(bits), unit(bits)).normalized();
       const double t = 1e-3;
-      // Closest there to within the tilt that a tolerance of 1e-3 in the sine allows; directions in between prove nothing.
+      // Closest there to within the tilt that a tolerance of 1e-3 in the sine allows; directions in between
+      // prove nothing.
       const auto check = [&](const Vector& place, const Vector& d, bool strictly, bool loosely) {
         const bool is_closest = distance(mesh, place + t * d) >= t * (1 - 1e-12);
         if (strictly) BOOST_TEST(is_closest);
@@ -329,7 +350,8 @@ BOOST_AUTO_TEST_CASE(float_and_long_double_meshes_have_the_same_topology) {
   for (int t = 0; t < 12; ++t)
     for (int k = 0; k < 3; ++k)
       BOOST_TEST((narrow.topology().edge_convexity(t, k) == wide.topology().edge_convexity(t, k)));
-  BOOST_TEST(feeler::edge_cone_contains<float>(narrow, 0, 0, feeler::Vector3<float>(-1, 0, -1).normalized(), 0.0F));
+  BOOST_TEST(
+      feeler::edge_cone_contains<float>(narrow, 0, 0, feeler::Vector3<float>(-1, 0, -1).normalized(), 0.0F));
 }
 
 BOOST_AUTO_TEST_SUITE_END()

@@ -31,8 +31,9 @@ void check_tool_laws(const Tool& tool, bool solid = true, unsigned seed = 1) {
     lower = lower.cwiseMin(wide(tool.vertex(i)));
     upper = upper.cwiseMax(wide(tool.vertex(i)));
   }
-  const long double eps = std::numeric_limits<Scalar>::epsilon();
-  const long double size = (upper - lower).norm() + std::max(lower.cwiseAbs().maxCoeff(), upper.cwiseAbs().maxCoeff());
+  const auto eps = static_cast<long double>(std::numeric_limits<Scalar>::epsilon());
+  const long double size =
+      (upper - lower).norm() + std::max(lower.cwiseAbs().maxCoeff(), upper.cwiseAbs().maxCoeff());
   const long double tolerance = 16 * eps * size;
 
   // support is a vertex with the largest dot product, to the rounding of a dot product
@@ -43,7 +44,8 @@ void check_tool_laws(const Tool& tool, bool solid = true, unsigned seed = 1) {
     BOOST_TEST_REQUIRE((found >= 0 && found < n));
     long double best = -std::numeric_limits<long double>::infinity();
     for (int i = 0; i < n; ++i) best = std::max(best, wide(direction).dot(wide(tool.vertex(i))));
-    BOOST_TEST(wide(direction).dot(wide(tool.vertex(found))) >= best - 4 * eps * size * wide(direction).norm());
+    BOOST_TEST(wide(direction).dot(wide(tool.vertex(found))) >=
+               best - 4 * eps * size * wide(direction).norm());
   };
   for (int i = 0; i < 200; ++i)
     check_support(feeler::Vector3<Scalar>(Scalar(normal(bits)), Scalar(normal(bits)), Scalar(normal(bits))));
@@ -58,7 +60,8 @@ void check_tool_laws(const Tool& tool, bool solid = true, unsigned seed = 1) {
   std::set<std::pair<int, int>> edges;
   for (int i = 0; i < tool.edge_count(); ++i) {
     const feeler::ToolEdge edge = tool.edge(i);
-    BOOST_TEST_REQUIRE((edge.start >= 0 && edge.start < n && edge.end >= 0 && edge.end < n && edge.start != edge.end));
+    BOOST_TEST_REQUIRE(
+        (edge.start >= 0 && edge.start < n && edge.end >= 0 && edge.end < n && edge.start != edge.end));
     BOOST_TEST(edges.insert(std::minmax({edge.start, edge.end})).second);
     const Wide along = wide(tool.vertex(edge.end)) - wide(tool.vertex(edge.start));
     long double off = std::numeric_limits<long double>::infinity();
@@ -68,7 +71,9 @@ void check_tool_laws(const Tool& tool, bool solid = true, unsigned seed = 1) {
   }
   for (int a = 0; a < tool.edge_direction_count(); ++a)
     for (int b = 0; b < a; ++b)
-      BOOST_TEST(wide(tool.edge_direction(a)).normalized().cross(wide(tool.edge_direction(b)).normalized()).norm() > 0);
+      BOOST_TEST(
+          wide(tool.edge_direction(a)).normalized().cross(wide(tool.edge_direction(b)).normalized()).norm() >
+          0);
 
   // faces are planar, support the tool from outside, run counter-clockwise, and have an axis listed
   std::map<std::pair<int, int>, int> sides;

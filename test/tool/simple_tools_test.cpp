@@ -22,7 +22,9 @@ std::string refusal(const Build& build) {
   }
   return "accepted";
 }
-bool contains(const std::string& text, const char* part) { return text.find(part) != std::string::npos; }
+bool contains(const std::string& text, const char* part) {
+  return text.find(part) != std::string::npos;
+}
 }  // namespace
 
 BOOST_AUTO_TEST_SUITE(simple_tools)

@@ -15,7 +15,8 @@ namespace feeler {
 struct BvhNode {
   float lower[3];
   float upper[3];
-  std::int32_t first;  ///< inner: the children are the nodes first and first + 1; leaf: position in the triangle order
+  std::int32_t
+      first;  ///< inner: the children are the nodes first and first + 1; leaf: position in the triangle order
   std::int32_t count;  ///< inner: 0; leaf: the number of triangles
 
   bool is_leaf() const noexcept { return count != 0; }
@@ -31,8 +32,8 @@ struct BvhItem {
 
 /// Binned top-down builder (Wald, "On fast construction of SAH-based bounding volume hierarchies", 2007).
 ///
-/// Splits at the best of 15 planes on each axis. Where no plane separates the centres, and where the depth bound comes near, it halves the
-/// list instead. Leaves hold up to `max_leaf_size` items.
+/// Splits at the best of 15 planes on each axis. Where no plane separates the centres, and where the depth
+/// bound comes near, it halves the list instead. Leaves hold up to `max_leaf_size` items.
 /// @cost  O(n log n); 28 bytes of scratch per item, which the caller brings
 class BvhBuilder {
  public:
@@ -99,7 +100,9 @@ class BvhBuilder {
   static constexpr float infinity = std::numeric_limits<float>::infinity();
 
   /// Twice the centre of an item; the factor does not matter to a split.
-  static float centre(const BvhItem& item, std::size_t axis) noexcept { return item.lower[axis] + item.upper[axis]; }
+  static float centre(const BvhItem& item, std::size_t axis) noexcept {
+    return item.lower[axis] + item.upper[axis];
+  }
 
   /// Writes the box of a node, and returns the box of the centres in it.
   Box enclose(const Task& task) noexcept {
@@ -131,8 +134,9 @@ class BvhBuilder {
     }
     const std::int32_t middle = task.begin + count / 2;
     if (is_spread)
-      std::nth_element(items_.begin() + task.begin, items_.begin() + middle, items_.begin() + task.end,
-                       [axis](const BvhItem& a, const BvhItem& b) { return centre(a, axis) < centre(b, axis); });
+      std::nth_element(
+          items_.begin() + task.begin, items_.begin() + middle, items_.begin() + task.end,
+          [axis](const BvhItem& a, const BvhItem& b) { return centre(a, axis) < centre(b, axis); });
     return middle;
   }
 
@@ -175,10 +179,9 @@ class BvhBuilder {
       }
     }
     if (best_bin == 0) return task.begin;
-    const auto middle =
-        std::partition(items_.begin() + task.begin, items_.begin() + task.end, [&](const BvhItem& item) {
-          return bin_of(item, best_axis, centres, scale) < best_bin;
-        });
+    const auto middle = std::partition(
+        items_.begin() + task.begin, items_.begin() + task.end,
+        [&](const BvhItem& item) { return bin_of(item, best_axis, centres, scale) < best_bin; });
     return std::int32_t(middle - items_.begin());
   }
 
