@@ -58,9 +58,10 @@ double SimulatedHand::time() const noexcept { return double(ticks_) * period_; }
 // Flattened, here and in the encoder: a function of Eigen types left out of line would be merged by the linker with the user's own,
 // compiled with other vector widths.
 [[gnu::flatten]] DevicePose SimulatedHand::target(double time) const noexcept {
-  const auto steady = from_device<Pose<double>>(path_(time)).normalized();
+  const auto steady = from_device<Pose<double>>(path_(time));
+  if (!steady.is_finite()) return target_;
   const auto shake = tremor_.at(time);
-  return to_device_pose(moved(steady, {{shake[0], shake[1], shake[2]}, {shake[3], shake[4], shake[5]}}));
+  return to_device_pose(moved(steady.normalized(), {{shake[0], shake[1], shake[2]}, {shake[3], shake[4], shake[5]}}));
 }
 
 [[gnu::flatten]] void SimulatedHand::advance(const DeviceWrench& wrench) noexcept {

@@ -154,7 +154,7 @@ BOOST_AUTO_TEST_CASE(a_callback_that_throws_ends_it_with_a_sentence) {
 BOOST_AUTO_TEST_CASE(what_it_cannot_run_is_refused) {
   const auto nothing = [](const ServoTick&) { return true; };
   BOOST_CHECK_THROW(ServoLoop({}, nullptr), std::invalid_argument);
-  for (const double rate : {-1.0, 2e9, std::numeric_limits<double>::quiet_NaN()}) {
+  for (const double rate : {-1.0, 1e-12, 2e9, std::numeric_limits<double>::quiet_NaN()}) {
     BOOST_CHECK_THROW(ServoLoop(quiet(rate, 1), nothing), std::invalid_argument);
   }
   ServoLoop loop(quiet(0, 1), nothing);
