@@ -15,10 +15,9 @@ double grip_damping(double stiffness, double inertia, double ratio) noexcept {
   return 2 * ratio * std::sqrt(stiffness * inertia);
 }
 
-/// Semi-implicit Euler of m a = −k x − c v is stable just when c h/m < 2 and k h²/m < 4 − 2 c h/m (Jury's criterion).
+/// Semi-implicit Euler of m a = −k x − c v is stable just when k h²/m < 4 − 2 c h/m (Jury's criterion).
 bool is_stable(double inertia, double stiffness, double damping, double step) noexcept {
-  const double damped = damping * step / inertia;
-  return damped < 2 && stiffness * step * step / inertia < 4 - 2 * damped;
+  return stiffness * step * step / inertia < 4 - 2 * damping * step / inertia;
 }
 
 void require(bool holds, const char* sentence) {
