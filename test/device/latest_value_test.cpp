@@ -45,7 +45,7 @@ BOOST_AUTO_TEST_CASE(a_watcher_never_sees_a_torn_or_an_older_value_and_always_th
     backwards += block[0] <= seen;
     seen = block[0];
   };
-  for (int fetched = 0; fetched < 1000;) {
+  for (int fetched = 0; fetched < 10000;) {
     if (shared.fetch(block)) {
       check();
       ++fetched;
