@@ -77,7 +77,7 @@ BOOST_AUTO_TEST_CASE(cube_in_a_plane_is_as_deep_as_it_is_pushed) {
   const CheckedTool cube = box(Vector3d::Constant(0.5));
   for (const double depth : depths) {
     const Penetration p = deepest_penetration(plane(), cube, shifted(0.25, -0.125, 0.5 - depth));
-    BOOST_TEST(std::abs(double(p.depth - depth)) < 1e-16);  // 0.5 − depth is rounded
+    BOOST_TEST(std::abs(double(p.depth) - depth) < 1e-16);  // 0.5 − depth is rounded
     BOOST_TEST(p.triangle >= 0);
     BOOST_TEST(std::abs(depth_of(plane(), cube, shifted(0, 0, -0.5 + depth)) - depth) < 1e-16);  // from below
   }
@@ -177,11 +177,11 @@ BOOST_AUTO_TEST_CASE(depth_is_the_best_separation_over_all_directions) {
     for (int k = 0; k < 3; ++k)
       corners.col(k) = random_vector(bits), y[std::size_t(k)] = corners.col(k).cast<WideReal>();
     const double depth = depth_of(triangle(corners.col(0), corners.col(1), corners.col(2)), tool, at_rest);
-    WideReal best = -1e9;
+    WideReal best = -1e9L;
     WideVector best_direction = WideVector::UnitX();
     const auto consider = [&](const Vector3d& direction) {
       const WideVector n = direction.cast<WideReal>().normalized();
-      WideReal low = 1e9, high = -1e9;
+      WideReal low = 1e9L, high = -1e9L;
       for (const WideVector& v : tool.vertices) low = std::min(low, n.dot(v));
       for (const WideVector& corner : y) high = std::max(high, n.dot(corner));
       if (low - high > best) best = low - high, best_direction = n;
