@@ -1,0 +1,237 @@
+// The rows of one tool–triangle pair: every pair of features that meets in the patch where the two are close.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "feeler/contact/contact_row.hpp"
+#include "feeler/core/fixed_vector.hpp"
+#include "feeler/core/scalar.hpp"
+#include "feeler/object/normal_cone.hpp"
+#include "feeler/object/triangle_mesh.hpp"
+#include "feeler/proximity/gjk.hpp"
+#include "feeler/tool/convex_tool.hpp"
+
+namespace feeler {
+
+/// The rows of one pair.
+template <class Scalar>
+using PatchRows = FixedVector<ContactRow<Scalar>, 12>;
+
+/// Finds the rows of a pair.
+///
+/// In a band above the separating plane of the closest points it pairs tool vertices with the triangle, triangle corners with tool
+/// faces, and edges with edges, each with the normal of its own features. A contact between faces so gets the rows that also stop it
+/// from tilting. Where no such pair is as close as the closest points are, they give a row of their own.
+///
+/// A normal outside the normal cone of the mesh there is a ghost: a neighbour is nearer, and its own rows hold the tool.
+/// Such rows are left out, so that edges inside a flat surface do not catch; `keep_ghost` keeps the closest one.
+///
+/// All input in the tool frame. @cost O(vertices), and O(edges) where more than one vertex is in the band.
+template <ConvexTool Tool, class MeshScalar>
+class ContactPatch {
+ public:
+  using Scalar = typename Tool::Scalar;
+  using Vector = Vector3<Scalar>;
+  using Row = ContactRow<Scalar>;
+
+  /// @param world_from_tool  axes of the tool; rows come out in world axes
+  /// @param reference        reference point in the tool frame [m]
+  /// @param band             height above the separating plane up to which features count [m]
+  ContactPatch(const Tool& tool, const TriangleMesh<MeshScalar>& mesh, const Matrix3<Scalar>& world_from_tool,
+               const Vector& reference, Scalar band) noexcept
+      : tool_(tool), mesh_(mesh), world_from_tool_(world_from_tool), reference_(reference), band_(band) {}
+
+  /// Rows of a triangle with the closest points given; false when it had none but a ghost and that was left out.
+  bool find(int triangle, const Matrix3<Scalar>& corners, const ClosestPoints<Scalar>& closest, bool keep_ghost,
+            PatchRows<Scalar>& rows) noexcept {
+    rows.clear();
+    triangle_ = triangle;
+    corners_ = corners;
+    normal_ = closest.normal;
+    gather_near_features();
+    add_vertices_on_face(rows);
+    if (near_count_ > 1) add_edges(rows);
+    if (near_count_ > 2) add_corners_on_faces(rows);
+    const Scalar close_enough = closest.distance + std::abs(closest.distance) / 1000 + Scalar(1e-9);
+    const bool is_met = std::any_of(rows.begin(), rows.end(), [&](const Row& row) { return row.gap <= close_enough; });
+    if (is_met) return true;
+    if (!keep_ghost && !is_in_cone(closest)) return !rows.empty();
+    if (rows.full()) rows.pop_back();
+    rows.push_back(row_of(FeaturePair::vertex_face, normal_, closest.tool_point, closest.distance));
+    return true;
+  }
+
+ private:
+  static constexpr int near_capacity = 16;
+  // Features whose own normal differs more from the contact's belong to another part of the surface.
+  static constexpr Scalar least_cosine = Scalar(9) / 10;
+  static constexpr Scalar cone_tolerance = Scalar(1e-6);
+
+  static std::size_t index(int i) noexcept { return std::size_t(i); }
+
+  void gather_near_features() noexcept {
+    near_count_ = 0;
+    const int lowest = tool_.support(Vector(-normal_));
+    const Scalar limit = normal_.dot(tool_.vertex(lowest)) + band_;
+    for (int i = 0; i < tool_.vertex_count(); ++i) {
+      const bool is_near = i == lowest || normal_.dot(tool_.vertex(i)) <= limit;
+      is_near_[index(i)] = is_near && near_count_ < near_capacity;
+      if (is_near_[index(i)]) near_[index(near_count_++)] = i;
+    }
+    const Vector edge0 = corners_.col(1) - corners_.col(0);
+    const Vector edge1 = corners_.col(2) - corners_.col(0);
+    const Vector cross = edge0.cross(edge1);
+    const Scalar area = cross.norm();
+    has_face_ = area > 64 * std::numeric_limits<Scalar>::epsilon() * edge0.norm() * edge1.norm();
+    if (has_face_) {
+      face_normal_ = cross / area;
+      const Scalar cosine = face_normal_.dot(normal_);
+      side_ = cosine < Scalar(0) ? Scalar(-1) : Scalar(1);
+      faces_tool_ = side_ * cosine >= least_cosine;
+    }
+  }
+
+  void add_vertices_on_face(PatchRows<Scalar>& rows) noexcept {
+    if (!has_face_ || !faces_tool_) return;
+    const Vector normal = side_ * face_normal_;
+    for (int i = 0; i < near_count_; ++i) {
+      const Vector vertex = tool_.vertex(near_[index(i)]);
+      const Scalar gap = normal.dot(vertex - corners_.col(0));
+      if (std::abs(gap) > 2 * band_) continue;
+      bool is_inside = true;
+      for (int k = 0; k < 3; ++k) {
+        const Vector start = corners_.col(k);
+        const Vector edge = corners_.col((k + 1) % 3) - start;
+        is_inside = is_inside && edge.cross(Vector(vertex - start)).dot(face_normal_) >= Scalar(0);
+      }
+      if (is_inside) rows.push_back(row_of(FeaturePair::vertex_face, normal, vertex, gap));
+    }
+  }
+
+  void add_corners_on_faces(PatchRows<Scalar>& rows) noexcept {
+    for (int f = 0; f < tool_.face_count(); ++f) {
+      const auto face = tool_.face(f);
+      const Vector outward = face.normal;
+      if (-outward.dot(normal_) < least_cosine) continue;
+      const auto& loop = face.vertices;
+      if (!std::all_of(loop.begin(), loop.end(), [this](int v) { return is_near_[index(v)]; })) continue;
+      for (int k = 0; k < 3; ++k) {
+        const Vector corner = corners_.col(k);
+        const Scalar gap = outward.dot(corner - tool_.vertex(loop[0]));
+        if (std::abs(gap) > 2 * band_) continue;
+        bool is_inside = true;
+        for (std::size_t i = 0; i < loop.size(); ++i) {
+          const Vector start = tool_.vertex(loop[i]);
+          const Vector edge = tool_.vertex(loop[(i + 1) % loop.size()]) - start;
+          is_inside = is_inside && edge.cross(Vector(corner - start)).dot(outward) >= Scalar(0);
+        }
+        if (!is_inside || !is_in_vertex_cone(k, Vector(-outward))) continue;
+        rows.push_back(row_of(FeaturePair::face_vertex, Vector(-outward), corner, gap));
+      }
+    }
+  }
+
+  void add_edges(PatchRows<Scalar>& rows) noexcept {
+    for (int e = 0; e < tool_.edge_count(); ++e) {
+      const ToolEdge edge = tool_.edge(e);
+      if (!is_near_[index(edge.start)] || !is_near_[index(edge.end)]) continue;
+      for (int k = 0; k < 3; ++k) add_edge_pair(tool_.vertex(edge.start), tool_.vertex(edge.end), k, rows);
+    }
+  }
+
+  void add_edge_pair(const Vector& tool_start, const Vector& tool_end, int k, PatchRows<Scalar>& rows) noexcept {
+    const Vector start = corners_.col(k);
+    const Vector object = corners_.col((k + 1) % 3) - start;
+    const Vector tool = tool_end - tool_start;
+    const Scalar object_length = object.norm(), tool_length = tool.norm();
+    if (!(object_length > Scalar(0))) return;
+    const Vector u = object / object_length, v = tool / tool_length;
+    const Vector cross = v.cross(u);
+    const Scalar sine = cross.norm();
+    if (sine < Scalar(1e-3)) {
+      add_parallel_edges(tool_start, tool, start, object, k, rows);
+      return;
+    }
+    Vector normal = cross / sine;
+    if (normal.dot(normal_) < Scalar(0)) normal = -normal;
+    if (normal.dot(normal_) < least_cosine) return;
+    // The lines are closest where the difference of their points is along the normal.
+    const Vector between = tool_start - start;
+    const Scalar along_object = between.cross(v).dot(u.cross(v)) / (sine * sine);
+    const Scalar along_tool = between.cross(u).dot(u.cross(v)) / (sine * sine);
+    if (along_object < Scalar(0) || along_object > object_length || along_tool < Scalar(0) || along_tool > tool_length) return;
+    const Scalar gap = normal.dot(between);
+    if (std::abs(gap) > 2 * band_ || !is_in_edge_cone(k, normal)) return;
+    Row row = row_of(FeaturePair::edge_edge, normal, Vector(tool_start + along_tool * v), gap);
+    row.object_edge = world_from_tool_ * u;
+    row.tool_edge = world_from_tool_ * v;
+    rows.push_back(row);
+  }
+
+  /// Edges in parallel touch along an interval; its ends hold the tool.
+  void add_parallel_edges(const Vector& tool_start, const Vector& tool, const Vector& start, const Vector& object, int k,
+                          PatchRows<Scalar>& rows) noexcept {
+    const Scalar length_squared = tool.squaredNorm();
+    const Scalar first = object.dot(tool) > Scalar(0) ? tool.dot(start - tool_start) : tool.dot(start + object - tool_start);
+    const Scalar extent = std::abs(object.dot(tool));
+    const Scalar from = std::max(Scalar(0), first / length_squared);
+    const Scalar to = std::min(Scalar(1), (first + extent) / length_squared);
+    if (!(from < to) || !is_in_edge_cone(k, normal_)) return;
+    for (const Scalar t : {from, to}) {
+      const Vector on_tool = tool_start + t * tool;
+      const Scalar along = object.dot(on_tool - start) / object.squaredNorm();
+      const Vector between = on_tool - start - along * object;
+      const Scalar gap = normal_.dot(between);
+      // Far apart across the normal they only look parallel: no contact there.
+      if (std::abs(gap) > 2 * band_ || (between - gap * normal_).norm() > std::abs(gap) + Scalar(1e-9)) continue;
+      rows.push_back(row_of(FeaturePair::vertex_face, normal_, on_tool, gap));
+    }
+  }
+
+  Row row_of(FeaturePair kind, const Vector& normal, const Vector& point, Scalar gap) const noexcept {
+    Row row;
+    row.kind = kind;
+    row.normal = world_from_tool_ * normal;
+    row.arm = world_from_tool_ * (point - reference_);
+    row.gap = gap;
+    return row;
+  }
+
+  bool is_in_cone(const ClosestPoints<Scalar>& closest) const noexcept {
+    std::array<bool, 3> used{};
+    for (std::size_t i = 0; i < std::size_t(closest.features.size); ++i) used[std::size_t(closest.features.corners[i])] = true;
+    const int count = int(used[0]) + int(used[1]) + int(used[2]);
+    if (count == 1) return is_in_vertex_cone(used[0] ? 0 : used[1] ? 1 : 2, normal_);
+    if (count == 2) return is_in_edge_cone(!used[2] ? 0 : !used[0] ? 1 : 2, normal_);
+    return true;
+  }
+  bool is_in_vertex_cone(int corner, const Vector& normal) const noexcept {
+    const Vector3<MeshScalar> direction = (world_from_tool_ * normal).template cast<MeshScalar>();
+    return vertex_cone_contains(mesh_, mesh_.triangle(triangle_)[index(corner)], direction, MeshScalar(cone_tolerance));
+  }
+  bool is_in_edge_cone(int edge, const Vector& normal) const noexcept {
+    const Vector3<MeshScalar> direction = (world_from_tool_ * normal).template cast<MeshScalar>();
+    return edge_cone_contains(mesh_, triangle_, edge, direction, MeshScalar(cone_tolerance));
+  }
+
+  const Tool& tool_;
+  const TriangleMesh<MeshScalar>& mesh_;
+  Matrix3<Scalar> world_from_tool_;
+  Vector reference_;
+  Scalar band_;
+
+  int triangle_ = -1;
+  Matrix3<Scalar> corners_;
+  Vector normal_;
+  bool has_face_ = false;
+  bool faces_tool_ = false;
+  Vector face_normal_ = Vector::Zero();
+  Scalar side_ = Scalar(1);
+  int near_count_ = 0;
+  std::array<int, near_capacity> near_;
+  std::array<bool, 256> is_near_;
+};
+
+}  // namespace feeler

@@ -1,0 +1,74 @@
+// One contact as the optimisation sees it: separation of two features, its gradient and its curvature.
+#pragma once
+
+#include <Eigen/Geometry>
+
+#include "feeler/core/scalar.hpp"
+#include "feeler/spatial/rotation.hpp"
+
+namespace feeler {
+
+/// Which features meet: it decides how the normal turns with the tool.
+enum class FeaturePair : unsigned char {
+  vertex_face,  ///< tool vertex on object face, or no better known: the normal stays with the object
+  face_vertex,  ///< tool face on object vertex: the normal turns with the tool
+  edge_edge,    ///< two edges that cross: the normal is perpendicular to both
+};
+
+/// Separation of a pair of features near contact, s(d) for a step d = (dp, w) of the tool; world axes, points relative to the tool
+/// reference point at the pose of linearisation [m].
+///
+/// s(d) ≈ gap + J d + ½ dᵀ C d with J = [n, r × n] for the contact point at arm r (paper, eq. 6 and 7).
+template <class ScalarType>
+struct ContactRow {
+  using Scalar = ScalarType;
+
+  FeaturePair kind = FeaturePair::vertex_face;
+  int triangle = -1;
+  Vector3<Scalar> normal = Vector3<Scalar>::UnitZ();     ///< unit, from the object to the tool
+  Vector3<Scalar> arm = Vector3<Scalar>::Zero();         ///< contact point on the tool; for `face_vertex` the object vertex
+  Vector3<Scalar> object_edge = Vector3<Scalar>::Zero(); ///< `edge_edge` only: unit directions
+  Vector3<Scalar> tool_edge = Vector3<Scalar>::Zero();
+  Scalar gap = Scalar(0);
+
+  Vector6<Scalar> gradient() const noexcept {
+    Vector6<Scalar> j;
+    j << normal, arm.cross(normal);
+    return j;
+  }
+
+  /// C: second derivative of the separation by the step.
+  ///
+  /// A vertex on a face moves by Exp(w)r, so n·w×(w×r) = wᵀA w with A(n, r) = ½(nrᵀ + rnᵀ) − (n·r)I. A face on a vertex z sees it
+  /// move by Exp(−w)(z − dp). Where edges u (object) and v (tool) cross, n ∝ v × u turns by δn = B w, and δn·δx is added.
+  Matrix6<Scalar> curvature() const noexcept {
+    Matrix6<Scalar> c = Matrix6<Scalar>::Zero();
+    const Matrix3<Scalar> outer = normal * arm.transpose() / 2;
+    const Matrix3<Scalar> chord = outer + outer.transpose() - normal.dot(arm) * Matrix3<Scalar>::Identity();
+    auto linear_angular = c.template topRightCorner<3, 3>();
+    auto angular = c.template bottomRightCorner<3, 3>();
+    switch (kind) {
+      case FeaturePair::vertex_face: angular = chord; break;
+      case FeaturePair::face_vertex:
+        angular = -chord;
+        linear_angular = -cross_matrix(normal);
+        break;
+      case FeaturePair::edge_edge: {
+        const Vector3<Scalar> cross = tool_edge.cross(object_edge);
+        const Scalar oriented = cross.dot(normal);  // signed sine of the angle between the edges
+        const Matrix3<Scalar> turn =
+            (tool_edge * object_edge.transpose() -
+             object_edge.dot(tool_edge) * (Matrix3<Scalar>::Identity() - normal * normal.transpose())) /
+            oriented;
+        const Matrix3<Scalar> carried = turn.transpose() * cross_matrix(arm);
+        linear_angular = turn;
+        angular = chord - carried - carried.transpose();
+        break;
+      }
+    }
+    c.template bottomLeftCorner<3, 3>() = linear_angular.transpose();
+    return c;
+  }
+};
+
+}  // namespace feeler

@@ -1,0 +1,73 @@
+// The few triangles that hold the tool or lately did, from tick to tick.
+#pragma once
+
+#include "feeler/core/fixed_vector.hpp"
+#include "feeler/core/scalar.hpp"
+#include "feeler/proximity/gjk.hpp"
+
+namespace feeler {
+
+/// A triangle near the tool and what is known of it at the last certified pose.
+template <class Scalar>
+struct WorkingPair {
+  int triangle = -1;
+  Matrix3<Scalar> corners_world;  ///< a corner a column [m]
+  ClosestFeatures features;       ///< where the last query ended
+  Vector3<Scalar> normal = Vector3<Scalar>::Zero();  ///< world normal that separates at the certified pose, or zero
+  Scalar slack = Scalar(0);                          ///< separation there [m]
+  int idle_ticks = 0;       ///< ticks since it held the tool or blocked a motion
+  bool has_rows = false;    ///< rows of it took part in the last step
+  bool keeps_ghost = false; ///< it blocked although its row looked like a ghost: give it a row all the same
+};
+
+/// The working set: constraints enter when they block and leave when they have long been idle.
+template <class ScalarType>
+class WorkingSet {
+ public:
+  using Scalar = ScalarType;
+  using Pair = WorkingPair<Scalar>;
+  static constexpr int capacity = 48;
+
+  int size() const noexcept { return pairs_.size(); }
+  Pair& operator[](int i) noexcept { return pairs_[i]; }
+  const Pair& operator[](int i) const noexcept { return pairs_[i]; }
+  void clear() noexcept { pairs_.clear(); }
+
+  /// Position of a triangle, or -1.
+  int find(int triangle) const noexcept {
+    for (int i = 0; i < pairs_.size(); ++i) {
+      if (pairs_[i].triangle == triangle) return i;
+    }
+    return -1;
+  }
+
+  /// Adds a triangle, in place of the longest idle one when full.
+  void add(int triangle, const Matrix3<Scalar>& corners_world) noexcept {
+    if (pairs_.full()) {
+      int idlest = 0;
+      for (int i = 1; i < pairs_.size(); ++i) {
+        if (pairs_[i].idle_ticks > pairs_[idlest].idle_ticks) idlest = i;
+      }
+      pairs_.swap_remove(idlest);
+    }
+    Pair pair;
+    pair.triangle = triangle;
+    pair.corners_world = corners_world;
+    pairs_.push_back(pair);
+  }
+
+  /// Counts a tick, and drops what has been idle for `longest` ticks or lies more than `reach` away [m].
+  void age(int longest, Scalar reach, bool keep_ghosts) noexcept {
+    for (int i = pairs_.size() - 1; i >= 0; --i) {
+      Pair& pair = pairs_[i];
+      ++pair.idle_ticks;
+      if (!keep_ghosts) pair.keeps_ghost = false;
+      if (pair.idle_ticks > longest || (pair.idle_ticks > 1 && pair.slack > reach)) pairs_.swap_remove(i);
+    }
+  }
+
+ private:
+  FixedVector<Pair, capacity> pairs_;
+};
+
+}  // namespace feeler

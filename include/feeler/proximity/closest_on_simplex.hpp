@@ -1,0 +1,143 @@
+// The point of a segment, triangle or tetrahedron that is closest to the origin.
+#pragma once
+
+#include <array>
+
+#include <Eigen/Geometry>
+
+#include "feeler/core/scalar.hpp"
+
+namespace feeler::detail {
+
+/// Up to four points, the weights of the point of their hull closest to the origin, and that point.
+template <class Scalar>
+struct Simplex {
+  int size = 0;
+  std::array<Vector3<Scalar>, 4> points;
+  std::array<int, 4> tool_vertices;  ///< the tool vertex of each point
+  std::array<int, 4> corners;        ///< the triangle corner of each point
+  std::array<Scalar, 4> weights;
+  Vector3<Scalar> closest = Vector3<Scalar>::Zero();
+
+  /// Keeps the points with the positions given, in that order.
+  void keep(std::array<int, 3> positions, std::array<Scalar, 3> weights_kept, int count) noexcept {
+    Simplex kept;
+    kept.size = count;
+    kept.closest.setZero();
+    for (int i = 0; i < count; ++i) {
+      const auto from = std::size_t(positions[std::size_t(i)]);
+      const auto to = std::size_t(i);
+      kept.points[to] = points[from];
+      kept.tool_vertices[to] = tool_vertices[from];
+      kept.corners[to] = corners[from];
+      kept.weights[to] = weights_kept[to];
+      kept.closest += weights_kept[to] * points[from];
+    }
+    *this = kept;
+  }
+};
+
+/// Weights of the point closest to the origin on the hull of up to three points; a weight of zero marks a point not needed.
+template <class Scalar>
+std::array<Scalar, 3> closest_on_segment(const Vector3<Scalar>& a, const Vector3<Scalar>& b) noexcept {
+  const Vector3<Scalar> ab = b - a;
+  const Scalar along = -a.dot(ab);
+  const Scalar length = ab.squaredNorm();
+  if (!(along > Scalar(0))) return {Scalar(1), Scalar(0), Scalar(0)};
+  if (along >= length) return {Scalar(0), Scalar(1), Scalar(0)};
+  const Scalar t = along / length;
+  return {Scalar(1) - t, t, Scalar(0)};
+}
+
+/// The same for a triangle, by its Voronoi regions (C. Ericson, "Real-Time Collision Detection", section 5.1.5).
+template <class Scalar>
+std::array<Scalar, 3> closest_on_triangle(const Vector3<Scalar>& a, const Vector3<Scalar>& b,
+                                          const Vector3<Scalar>& c) noexcept {
+  const Vector3<Scalar> ab = b - a;
+  const Vector3<Scalar> ac = c - a;
+  const Scalar d1 = -ab.dot(a), d2 = -ac.dot(a);
+  if (d1 <= Scalar(0) && d2 <= Scalar(0)) return {Scalar(1), Scalar(0), Scalar(0)};
+  const Scalar d3 = -ab.dot(b), d4 = -ac.dot(b);
+  if (d3 >= Scalar(0) && d4 <= d3) return {Scalar(0), Scalar(1), Scalar(0)};
+  const Scalar d5 = -ab.dot(c), d6 = -ac.dot(c);
+  if (d6 >= Scalar(0) && d5 <= d6) return {Scalar(0), Scalar(0), Scalar(1)};
+  // Areas of the sub-triangles, from the normal rather than from products of the dots above: exact to rounding near the plane.
+  const Vector3<Scalar> normal = ab.cross(ac);
+  const Scalar va = normal.dot(b.cross(c)), vb = normal.dot(c.cross(a)), vc = normal.dot(a.cross(b));
+  if (vc <= Scalar(0) && d1 >= Scalar(0) && d3 <= Scalar(0)) {
+    const Scalar t = d1 / (d1 - d3);
+    return {Scalar(1) - t, t, Scalar(0)};
+  }
+  if (vb <= Scalar(0) && d2 >= Scalar(0) && d6 <= Scalar(0)) {
+    const Scalar t = d2 / (d2 - d6);
+    return {Scalar(1) - t, Scalar(0), t};
+  }
+  if (va <= Scalar(0) && d4 - d3 >= Scalar(0) && d5 - d6 >= Scalar(0)) {
+    const Scalar t = (d4 - d3) / ((d4 - d3) + (d5 - d6));
+    return {Scalar(0), Scalar(1) - t, t};
+  }
+  const Scalar sum = va + vb + vc;
+  if (!(sum > Scalar(0))) return {Scalar(1), Scalar(0), Scalar(0)};  // flat: the caller compares with the edges
+  return {va / sum, vb / sum, vc / sum};
+}
+
+/// Reduces the simplex to the points that carry its point closest to the origin; false when it contains the origin.
+///
+/// The newest point is the last. Only faces with the newest point are searched: the others were on the far side before.
+template <class Scalar>
+bool reduce_to_closest(Simplex<Scalar>& simplex) noexcept {
+  const auto& p = simplex.points;
+  const auto apply = [&simplex](std::array<int, 3> positions, const std::array<Scalar, 3>& weights) {
+    std::array<int, 3> kept{};
+    std::array<Scalar, 3> kept_weights{};
+    int count = 0;
+    for (std::size_t i = 0; i < 3; ++i) {
+      if (weights[i] > Scalar(0)) {
+        kept[std::size_t(count)] = positions[i];
+        kept_weights[std::size_t(count)] = weights[i];
+        ++count;
+      }
+    }
+    simplex.keep(kept, kept_weights, count);
+  };
+  switch (simplex.size) {
+    case 1:
+      simplex.weights[0] = Scalar(1);
+      simplex.closest = p[0];
+      return true;
+    case 2:
+      apply({0, 1, 1}, closest_on_segment(p[0], p[1]));
+      return true;
+    case 3:
+      apply({0, 1, 2}, closest_on_triangle(p[0], p[1], p[2]));
+      return true;
+    default: break;
+  }
+  constexpr std::array<std::array<int, 4>, 3> faces{{{0, 1, 3, 2}, {1, 2, 3, 0}, {2, 0, 3, 1}}};
+  Scalar best = std::numeric_limits<Scalar>::infinity();
+  std::array<int, 3> positions{};
+  std::array<Scalar, 3> weights{};
+  for (const auto& face : faces) {
+    const auto &a = p[std::size_t(face[0])], &b = p[std::size_t(face[1])], &c = p[std::size_t(face[2])];
+    const Vector3<Scalar> normal = (b - a).cross(c - a);
+    const Scalar inside = normal.dot(p[std::size_t(face[3])] - a);
+    const Scalar origin = -normal.dot(a);
+    const bool origin_is_beyond = inside > Scalar(0) ? origin <= Scalar(0) : inside < Scalar(0) ? origin >= Scalar(0) : true;
+    if (!origin_is_beyond) continue;
+    const auto w = closest_on_triangle(a, b, c);
+    const Scalar distance = (w[0] * a + w[1] * b + w[2] * c).squaredNorm();
+    if (distance < best) {
+      best = distance;
+      positions = {face[0], face[1], face[2]};
+      weights = w;
+    }
+  }
+  if (best == std::numeric_limits<Scalar>::infinity()) {
+    simplex.closest.setZero();
+    return false;
+  }
+  apply(positions, weights);
+  return true;
+}
+
+}  // namespace feeler::detail

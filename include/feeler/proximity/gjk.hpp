@@ -1,0 +1,117 @@
+// Closest points of a convex tool and a triangle, by the algorithm of Gilbert, Johnson and Keerthi.
+#pragma once
+
+#include <cmath>
+#include <limits>
+
+#include "feeler/core/fixed_vector.hpp"
+#include "feeler/core/scalar.hpp"
+#include "feeler/proximity/closest_on_simplex.hpp"
+#include "feeler/tool/convex_tool.hpp"
+
+namespace feeler {
+
+/// The features on which a query ended, to start the next one from: pairs of tool vertex and triangle corner.
+struct ClosestFeatures {
+  int size = 0;
+  std::array<short, 3> tool_vertices{};
+  std::array<short, 3> corners{};
+};
+
+/// Result of `gjk`, in the tool frame.
+template <class Scalar>
+struct ClosestPoints {
+  bool is_touching = false;  ///< the shapes touch or overlap to rounding: the normal means nothing
+  Vector3<Scalar> normal = Vector3<Scalar>::UnitZ();  ///< unit, from the triangle to the tool
+  Scalar distance = Scalar(0);                        ///< least separation along the normal [m]; a proof, not an estimate
+  Vector3<Scalar> tool_point = Vector3<Scalar>::Zero();
+  Vector3<Scalar> triangle_point = Vector3<Scalar>::Zero();
+  ClosestFeatures features;
+};
+
+/// Closest points of a tool and a triangle.
+///
+/// Minimises |x − y| over x in the tool and y in the triangle (E. Gilbert, D. Johnson, S. Keerthi, IEEE J. Robotics and Automation 4,
+/// 1988). The distance returned is min n·x − max n·y for the unit normal n returned, so it is a lower bound whatever rounding did.
+/// @param triangle  3×3, a corner a column, in the tool frame [m]; may be degenerate
+/// @param warm      features of an earlier query, or empty
+/// @param touching_distance  below it the shapes count as touching [m]
+/// @cost  noexcept, no allocation, at most 32 support calls, mostly 2 to 5
+template <ConvexTool Tool>
+ClosestPoints<typename Tool::Scalar> gjk(const Tool& tool, const Matrix3<typename Tool::Scalar>& triangle,
+                                         const ClosestFeatures& warm,
+                                         typename Tool::Scalar touching_distance) noexcept {
+  using Scalar = typename Tool::Scalar;
+  using std::sqrt;
+  constexpr int maximum_iterations = 32;
+  constexpr Scalar epsilon = std::numeric_limits<Scalar>::epsilon();
+
+  const auto corner_along = [&triangle](const Vector3<Scalar>& direction) {
+    const Vector3<Scalar> heights = triangle.transpose() * direction;
+    int best = heights[1] > heights[0] ? 1 : 0;
+    return heights[2] > heights[best] ? 2 : best;
+  };
+  detail::Simplex<Scalar> simplex;
+  const auto add = [&](int vertex, int corner) {
+    const auto i = std::size_t(simplex.size++);
+    simplex.points[i] = tool.vertex(vertex) - triangle.col(corner);
+    simplex.tool_vertices[i] = vertex;
+    simplex.corners[i] = corner;
+  };
+  if (warm.size > 0) {
+    for (std::size_t i = 0; i < std::size_t(warm.size); ++i) add(warm.tool_vertices[i], warm.corners[i]);
+  } else {
+    const Vector3<Scalar> towards = triangle.rowwise().mean() - tool.vertex(0);
+    const int vertex = tool.support(towards);
+    add(vertex, corner_along(Vector3<Scalar>(tool.vertex(vertex) - triangle.rowwise().mean())));
+  }
+  reduce_to_closest(simplex);
+
+  ClosestPoints<Scalar> result;
+  Scalar size = Scalar(0);
+  for (int i = 0; i < simplex.size; ++i) {
+    size = std::max(size, tool.vertex(simplex.tool_vertices[std::size_t(i)]).template lpNorm<Eigen::Infinity>());
+  }
+  Scalar best_distance = -std::numeric_limits<Scalar>::infinity();
+  Scalar previous = std::numeric_limits<Scalar>::infinity();
+  for (int iteration = 0; iteration < maximum_iterations; ++iteration) {
+    const Vector3<Scalar> v = simplex.closest;
+    const Scalar length_squared = v.squaredNorm();
+    if (!(length_squared > touching_distance * touching_distance)) {
+      result.is_touching = true;
+      break;
+    }
+    const Scalar length = sqrt(length_squared);
+    const Vector3<Scalar> normal = v / length;
+    const int vertex = tool.support(Vector3<Scalar>(-normal));
+    const int corner = corner_along(normal);
+    const Scalar distance = normal.dot(tool.vertex(vertex) - triangle.col(corner));
+    if (distance > best_distance) {
+      best_distance = distance;
+      result.normal = normal;
+      result.distance = distance;
+    }
+    if (length - distance <= Scalar(1e-12) * length + 4 * epsilon * size) break;
+    bool is_known = false;
+    for (std::size_t i = 0; i < std::size_t(simplex.size); ++i) {
+      is_known = is_known || (simplex.tool_vertices[i] == vertex && simplex.corners[i] == corner);
+    }
+    if (is_known || !(length_squared < previous)) break;
+    previous = length_squared;
+    add(vertex, corner);
+    if (!reduce_to_closest(simplex)) {
+      result.is_touching = true;
+      break;
+    }
+  }
+  result.features.size = simplex.size > 3 ? 0 : simplex.size;
+  for (std::size_t i = 0; i < std::size_t(result.features.size); ++i) {
+    result.features.tool_vertices[i] = short(simplex.tool_vertices[i]);
+    result.features.corners[i] = short(simplex.corners[i]);
+    result.tool_point += simplex.weights[i] * tool.vertex(simplex.tool_vertices[i]);
+    result.triangle_point += simplex.weights[i] * triangle.col(simplex.corners[i]);
+  }
+  return result;
+}
+
+}  // namespace feeler

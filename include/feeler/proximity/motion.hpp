@@ -1,0 +1,117 @@
+// A tool on its way from one pose to another, and how far planes that hold at both ends hold in between.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+
+#include "feeler/core/scalar.hpp"
+#include "feeler/spatial/pose.hpp"
+#include "feeler/spatial/twist.hpp"
+#include "feeler/tool/convex_tool.hpp"
+
+namespace feeler {
+
+/// Largest distance of a tool point from a point of the tool frame [m].
+template <ConvexTool Tool>
+typename Tool::Scalar radius_about(const Tool& tool, const Vector3<typename Tool::Scalar>& point) noexcept {
+  using std::sqrt;
+  typename Tool::Scalar largest(0);
+  for (int i = 0; i < tool.vertex_count(); ++i) largest = std::max(largest, (tool.vertex(i) - point).squaredNorm());
+  return sqrt(largest);
+}
+
+/// Where the tool is at one time of a motion: axes `rotation`, reference point `shift` away from the start [m].
+template <class Scalar>
+struct MotionFrame {
+  Scalar time = Scalar(0);
+  Matrix3<Scalar> rotation = Matrix3<Scalar>::Identity();
+  Vector3<Scalar> shift = Vector3<Scalar>::Zero();
+};
+
+/// A convex tool that moves by a twist about its reference point: at time t in [0, 1] the reference point has moved by t·linear, the
+/// axes have turned by Exp(t·angular). World coordinates are relative to the reference point at the start, so that
+/// scenes far from the origin lose no digits.
+template <ConvexTool ToolType>
+class MovingTool {
+ public:
+  using Tool = ToolType;
+  using Scalar = typename Tool::Scalar;
+  using Vector = Vector3<Scalar>;
+  using Frame = MotionFrame<Scalar>;
+
+  /// @param reference  the reference point in the tool frame [m]
+  /// @param radius     `radius_about(tool, reference)`
+  /// @param pose       pose whose translation is the reference point in the world [m]
+  MovingTool(const Tool& tool, const Vector& reference, Scalar radius, const Pose<Scalar>& pose,
+             const Twist<Scalar>& motion) noexcept
+      : tool_(tool), reference_(reference), radius_(radius), pose_(pose), motion_(motion),
+        angle_(motion.angular.norm()), distance_(motion.linear.norm()) {}
+
+  const Tool& tool() const noexcept { return tool_; }
+  const Vector& origin() const noexcept { return pose_.translation; }
+  const Twist<Scalar>& motion() const noexcept { return motion_; }
+  Scalar radius() const noexcept { return radius_; }
+  /// Bound on the path of every tool point over the whole motion [m].
+  Scalar length() const noexcept { return distance_ + radius_ * angle_; }
+
+  Pose<Scalar> pose_at(Scalar time) const noexcept { return moved(pose_, motion_ * time); }
+  Frame frame_at(Scalar time) const noexcept {
+    return {time, pose_at(time).rotation.toRotationMatrix(), time * motion_.linear};
+  }
+
+  /// Corners relative to `origin()` in the tool frame.
+  Matrix3<Scalar> in_tool(const Matrix3<Scalar>& corners, const Frame& frame) const noexcept {
+    return (frame.rotation.transpose() * (corners.colwise() - frame.shift)).colwise() + reference_;
+  }
+  Vector to_world(const Vector& point_tool, const Frame& frame) const noexcept {
+    return frame.rotation * (point_tool - reference_) + frame.shift;
+  }
+
+  /// Least height of the tool along a world normal: min n·x over its points x, relative to `origin()` [m].
+  Scalar lowest(const Vector& normal, const Frame& frame) const noexcept {
+    const Vector normal_tool = frame.rotation.transpose() * normal;
+    const int vertex = tool_.support(Vector(-normal_tool));
+    return normal_tool.dot(tool_.vertex(vertex) - reference_) + normal.dot(frame.shift);
+  }
+
+  /// Bound on how far a tool point strays from its chord along a fixed world normal over a part of the motion [m].
+  ///
+  /// n·Exp(tw)r has second derivative (n×w)·(w×r), of size at most |w×n| θ ρ; a function strays from its chord by an eighth of that.
+  Scalar sagitta(const Vector& normal, Scalar duration) const noexcept {
+    return duration * duration * motion_.angular.cross(normal).norm() * angle_ * radius_ / 8;
+  }
+
+  /// The same for an object point that strays from its chord as seen along a normal fixed to the tool.
+  ///
+  /// In the tool's axes the point is Z(t) = Exp(−tw)(y − c − t·dp), with Z″ = w×(w×Z) + 2 w×Exp(−tw)dp, so the bound is
+  /// |w×n| (θ max|Z| + 2|dp|) / 8; |Z| is convex in t, so its maximum is at an end.
+  /// @param reach  max |y − c| over the object points and both ends of the part [m]
+  Scalar sagitta_of_object(const Vector& normal, Scalar duration, Scalar reach) const noexcept {
+    return duration * duration * motion_.angular.cross(normal).norm() * (angle_ * reach + 2 * distance_) / 8;
+  }
+
+ private:
+  const Tool& tool_;
+  Vector reference_;
+  Scalar radius_;
+  Pose<Scalar> pose_;
+  Twist<Scalar> motion_;
+  Scalar angle_;
+  Scalar distance_;
+};
+
+/// First u in [0, 1] at which a + u (b − a) − 4g u (1 − u) falls below zero; 1 when it never does.
+///
+/// It is the lower bound of a slack with values a, b at the ends and a sagitta of at most g in between.
+template <class Scalar>
+Scalar first_root(Scalar a, Scalar b, Scalar g) noexcept {
+  using std::sqrt;
+  if (!(a >= Scalar(0))) return Scalar(0);
+  const Scalar slope = b - a - 4 * g;
+  const Scalar discriminant = slope * slope - 16 * g * a;
+  if (b >= Scalar(0) && (slope >= Scalar(0) || !(discriminant > Scalar(0)))) return Scalar(1);
+  const Scalar root = 2 * a / (-slope + sqrt(discriminant > Scalar(0) ? discriminant : Scalar(0)));
+  return root < Scalar(1) ? root : Scalar(1);
+}
+
+}  // namespace feeler

@@ -1,0 +1,152 @@
+// How far a moving tool passes one triangle for certain.
+#pragma once
+
+#include <algorithm>
+
+#include "feeler/core/scalar.hpp"
+#include "feeler/proximity/motion.hpp"
+#include "feeler/proximity/separation.hpp"
+
+namespace feeler {
+
+/// The separations that a certificate insists on.
+template <class Scalar>
+struct Clearance {
+  Scalar kept = Scalar(1e-7);        ///< separation required wherever there is that much to begin with [m]
+  Scalar allowance = Scalar(5e-12);  ///< overlap accepted where there is no clearance at all; rounding, never accumulated [m]
+  Scalar touching = Scalar(1e-8);    ///< see `touching_distance` [m]
+  Scalar resolution = Scalar(2.5e-7);  ///< advance too small to look for [m]
+
+  /// Separation required along a motion that starts `start` away: tight fits may halve it, but never add to an overlap.
+  Scalar required(Scalar start) const noexcept {
+    if (start >= 2 * kept) return kept;
+    if (start > 20 * allowance) return start / 2;
+    return std::min(start, -allowance);
+  }
+};
+
+/// Result of `pass`: free of collision on [0, time]; `is_blocked` where that is not the whole motion.
+template <class Scalar>
+struct Passage {
+  Scalar time = Scalar(1);
+  bool is_blocked = false;
+  Vector3<Scalar> normal = Vector3<Scalar>::Zero();  ///< world normal of a plane that holds at both ends, or zero
+};
+
+/// A triangle as the tool passes it.
+template <class Scalar>
+struct PassedTriangle {
+  Matrix3<Scalar> corners;                           ///< relative to `MovingTool::origin()` [m]
+  Vector3<Scalar> normal = Vector3<Scalar>::Zero();  ///< a plane known to separate at the start, or zero
+  ClosestFeatures features;                          ///< of an earlier query, or empty
+  bool is_exact = false;  ///< find the time of contact to `Clearance::resolution`, not to a sixteenth of the motion
+};
+
+namespace detail {
+
+/// The planes of one triangle at one time: a normal with the slack it has there.
+template <class Scalar>
+struct HeldPlane {
+  Vector3<Scalar> normal;
+  Scalar slack;
+};
+
+template <class Scalar>
+Scalar highest(const Matrix3<Scalar>& corners, const Vector3<Scalar>& normal) noexcept {
+  return (normal.transpose() * corners).maxCoeff();
+}
+
+/// Part of [from, to] over which one plane certainly holds, fixed to the world or to the tool, whichever is more; 1 for all of it.
+/// `plane` is given at the frame `at`, which is one end; `required` is subtracted from its slack.
+template <ConvexTool Tool>
+typename Tool::Scalar held_part(const MovingTool<Tool>& moving, const Matrix3<typename Tool::Scalar>& corners,
+                                const HeldPlane<typename Tool::Scalar>& plane,
+                                const MotionFrame<typename Tool::Scalar>& at,
+                                const MotionFrame<typename Tool::Scalar>& other, typename Tool::Scalar required,
+                                bool at_is_start) noexcept {
+  using Scalar = typename Tool::Scalar;
+  const Scalar duration = other.time - at.time;
+  const Scalar here = plane.slack - required;
+  // Fixed to the tool: the tool's height does not change, the triangle's does.
+  const Vector3<Scalar> turned = other.rotation * (at.rotation.transpose() * plane.normal);
+  const Scalar height = plane.slack + highest(corners, plane.normal) - plane.normal.dot(at.shift);
+  const Scalar there_tool = height + turned.dot(other.shift) - highest(corners, turned) - required;
+  const Scalar reach = std::max((corners.colwise() - at.shift).colwise().norm().maxCoeff(),
+                                (corners.colwise() - other.shift).colwise().norm().maxCoeff());
+  const Scalar sagitta_tool = moving.sagitta_of_object(plane.normal, duration, reach);
+  const Scalar part_tool = at_is_start ? first_root(here, there_tool, sagitta_tool) : first_root(there_tool, here, sagitta_tool);
+  if (!(part_tool < Scalar(1))) return Scalar(1);
+  // Fixed to the world.
+  const Scalar there = moving.lowest(plane.normal, other) - highest(corners, plane.normal) - required;
+  const Scalar sagitta = moving.sagitta(plane.normal, duration);
+  return std::max(part_tool, at_is_start ? first_root(here, there, sagitta) : first_root(there, here, sagitta));
+}
+
+}  // namespace detail
+
+/// Certifies the motion past one triangle up to `end.time`, or up to where it may be blocked.
+///
+/// A plane that separates at both ends of a part of the motion, less its sagitta, separates in between. From the start the motion advances
+/// by such parts, each with the separating plane where it begins, until the end or until parts get shorter than the resolution.
+/// @param work  grows by one for each distance query
+/// @cost  0 queries for a plane that holds, 1 to 4 as a rule, at most 25
+template <ConvexTool Tool>
+Passage<typename Tool::Scalar> pass(const MovingTool<Tool>& moving, const PassedTriangle<typename Tool::Scalar>& triangle,
+                                    const MotionFrame<typename Tool::Scalar>& start,
+                                    const MotionFrame<typename Tool::Scalar>& end,
+                                    const Clearance<typename Tool::Scalar>& clearance, int& work) noexcept {
+  using Scalar = typename Tool::Scalar;
+  using Plane = detail::HeldPlane<Scalar>;
+  const Matrix3<Scalar>& corners = triangle.corners;
+  ClosestFeatures warm = triangle.features;
+  const auto query = [&](const MotionFrame<Scalar>& frame) {
+    ++work;
+    const auto closest = separation(moving.tool(), moving.in_tool(corners, frame), warm, clearance.touching);
+    warm = closest.features;
+    return Plane{frame.rotation * closest.normal, closest.distance};
+  };
+  Plane plane{triangle.normal, Scalar(0)};
+  const bool is_known = triangle.normal.squaredNorm() > Scalar(0);
+  if (is_known) {
+    plane.slack = moving.lowest(plane.normal, start) - detail::highest(corners, plane.normal);
+    const Scalar required = clearance.required(plane.slack);
+    if (!(detail::held_part(moving, corners, plane, start, end, required, true) < Scalar(1))) {
+      return {end.time, false, plane.normal};
+    }
+  }
+  const Plane last = query(end);
+  const Scalar last_at_start = moving.lowest(last.normal, start) - detail::highest(corners, last.normal);
+  {
+    const Scalar required = clearance.required(is_known ? std::max(plane.slack, last_at_start) : last_at_start);
+    if (!(detail::held_part(moving, corners, last, end, start, required, false) < Scalar(1))) {
+      return {end.time, false, last.normal};
+    }
+  }
+  if (!is_known || plane.slack < 2 * clearance.kept) {
+    const Plane first = query(start);
+    if (!is_known || first.slack > plane.slack) plane = first;
+  }
+  const Scalar required = clearance.required(plane.slack);
+  const Scalar length = moving.length() * end.time;
+  const Scalar resolution = triangle.is_exact ? clearance.resolution : std::max(clearance.resolution, length / 16);
+  const int maximum_steps = triangle.is_exact ? 24 : 10;
+  MotionFrame<Scalar> frame = start;
+  for (int step = 0; step < maximum_steps; ++step) {
+    const Scalar whole = end.time - frame.time;
+    Scalar advance = whole * detail::held_part(moving, corners, plane, frame, end, required, true);
+    if (advance < whole && 3 * advance < whole) {
+      // A sagitta falls with the square of the duration: over a shorter part the same plane holds for longer.
+      const Scalar shorter = std::max(3 * advance, whole / 8);
+      const MotionFrame<Scalar> near_end = moving.frame_at(frame.time + shorter);
+      advance = std::max(advance, shorter * detail::held_part(moving, corners, plane, frame, near_end, required, true));
+    }
+    if (!(advance < whole)) return {end.time, false, Vector3<Scalar>::Zero()};
+    const bool is_short = advance * moving.length() < resolution;
+    frame = moving.frame_at(frame.time + advance);
+    if (is_short) break;
+    plane = query(frame);
+  }
+  return {frame.time, true, plane.normal};
+}
+
+}  // namespace feeler

@@ -1,0 +1,88 @@
+// A few planes that kept parting the tool from its surroundings, tried before anything is measured.
+#pragma once
+
+#include <array>
+#include <cmath>
+#include <utility>
+
+#include "feeler/core/scalar.hpp"
+#include "feeler/proximity/motion.hpp"
+
+namespace feeler {
+
+/// World normals of separating planes, from tick to tick, and their limits over the motion at hand.
+///
+/// A plane with normal n parts the tool from every y with n·y ≤ limit over the whole motion: with heights A, B of the tool's lowest
+/// point at the ends and a sagitta g, a slack s above the limit holds where √s + √(s + |A − B|) ≥ 2√g.
+template <class ScalarType>
+class PlaneCache {
+ public:
+  using Scalar = ScalarType;
+  static constexpr int capacity = 16;
+
+  int size() const noexcept { return size_; }
+  const Vector3<Scalar>& normal(int i) const noexcept { return normals_[index(i)]; }
+  Scalar limit(int i) const noexcept { return limits_[index(i)]; }
+  void count_hit(int i) noexcept { ++hits_[index(i)]; }
+  void clear() noexcept { size_ = 0; }
+
+  /// Adds a plane in place of the least useful one and finds its limit; returns its position.
+  template <class Moving>
+  int add(const Vector3<Scalar>& normal, const Moving& moving, const MotionFrame<Scalar>& start,
+          const MotionFrame<Scalar>& end, Scalar kept) noexcept {
+    int place = size_ < capacity ? size_++ : 0;
+    if (size_ == capacity && place == 0) {
+      for (int i = 1; i < capacity; ++i) {
+        if (hits_[index(i)] < hits_[index(place)]) place = i;
+      }
+    }
+    normals_[index(place)] = normal;
+    hits_[index(place)] = 4;
+    limits_[index(place)] = limit_of(normal, moving, start, end, kept);
+    return place;
+  }
+
+  /// Finds the limits for a motion, and forgets half of the hits.
+  template <class Moving>
+  void prepare(const Moving& moving, const MotionFrame<Scalar>& start, const MotionFrame<Scalar>& end,
+               Scalar kept) noexcept {
+    for (int i = 0; i < size_; ++i) limits_[index(i)] = limit_of(normals_[index(i)], moving, start, end, kept);
+  }
+  /// Halves the hits and brings the most useful planes to the front.
+  void age() noexcept {
+    for (int i = 0; i < size_; ++i) hits_[index(i)] /= 2;
+    for (int i = 1; i < size_; ++i) {
+      for (int k = i; k > 0 && hits_[index(k)] > hits_[index(k - 1)]; --k) {
+        std::swap(hits_[index(k)], hits_[index(k - 1)]);
+        std::swap(normals_[index(k)], normals_[index(k - 1)]);
+        std::swap(limits_[index(k)], limits_[index(k - 1)]);
+      }
+    }
+  }
+
+  template <class Moving>
+  static Scalar limit_of(const Vector3<Scalar>& normal, const Moving& moving, const MotionFrame<Scalar>& start,
+                         const MotionFrame<Scalar>& end, Scalar kept) noexcept {
+    using std::sqrt;
+    const Scalar at_start = moving.lowest(normal, start);
+    const Scalar at_end = moving.lowest(normal, end);
+    const Scalar sagitta = moving.sagitta(normal, end.time - start.time);
+    const Scalar difference = at_start < at_end ? at_end - at_start : at_start - at_end;
+    Scalar slack(0);
+    if (difference < 4 * sagitta) {
+      const Scalar root = sqrt(sagitta) - difference / (4 * sqrt(sagitta));
+      slack = root * root;
+    }
+    return (at_start < at_end ? at_start : at_end) - slack - kept;
+  }
+
+ private:
+  static std::size_t index(int i) noexcept { return std::size_t(i); }
+
+  int size_ = 0;
+  std::array<Vector3<Scalar>, capacity> normals_;
+  std::array<Scalar, capacity> limits_;
+  std::array<int, capacity> hits_{};
+};
+
+}  // namespace feeler

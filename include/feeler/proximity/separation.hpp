@@ -1,0 +1,44 @@
+// Signed separation of a convex tool and a triangle, near or far, apart or overlapping.
+#pragma once
+
+#include "feeler/core/scalar.hpp"
+#include "feeler/proximity/gjk.hpp"
+#include "feeler/proximity/separating_axes.hpp"
+#include "feeler/tool/convex_tool.hpp"
+
+namespace feeler {
+
+/// Distance under which closest points no longer tell a direction and separating axes take over [m].
+template <class Scalar>
+Scalar touching_distance(Scalar size) noexcept {
+  const Scalar rounding = Scalar(1e6) * std::numeric_limits<Scalar>::epsilon() * size;
+  return rounding > Scalar(1e-8) ? rounding : Scalar(1e-8);
+}
+
+/// Separating plane of a tool and a triangle: max over unit n of min n·x − max n·y, x in the tool, y in the triangle.
+///
+/// Closest points (GJK) where the shapes are apart; every candidate axis where they touch or overlap, so the distance is negative by the
+/// least translation that parts them. In all cases the distance is proved by the normal returned with it.
+/// @param triangle  3×3, a corner a column, in the tool frame [m]; may be degenerate
+template <ConvexTool Tool>
+ClosestPoints<typename Tool::Scalar> separation(const Tool& tool, const Matrix3<typename Tool::Scalar>& triangle,
+                                                const ClosestFeatures& warm,
+                                                typename Tool::Scalar touching) noexcept {
+  using Scalar = typename Tool::Scalar;
+  ClosestPoints<Scalar> closest = gjk(tool, triangle, warm, touching);
+  if (!closest.is_touching) return closest;
+  const SeparatingAxis<Scalar> axis = best_separating_axis(tool, triangle);
+  // A segment along a degenerate triangle has no axis at all; then the last direction of the closest points stands.
+  if (axis.distance == -std::numeric_limits<Scalar>::infinity()) {
+    closest.distance = separation_along(tool, triangle, closest.normal);
+    return closest;
+  }
+  closest.normal = axis.normal;
+  closest.distance = axis.distance;
+  closest.features.size = 0;
+  closest.tool_point = tool.vertex(tool.support(Vector3<Scalar>(-axis.normal)));
+  closest.triangle_point = closest.tool_point - axis.distance * axis.normal;
+  return closest;
+}
+
+}  // namespace feeler

@@ -1,0 +1,226 @@
+// The certificate of a whole motion: every triangle of the object passed for certain, or the ones that block.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <limits>
+#include <span>
+
+#include "feeler/core/fixed_vector.hpp"
+#include "feeler/core/scalar.hpp"
+#include "feeler/object/triangle_mesh.hpp"
+#include "feeler/proximity/motion.hpp"
+#include "feeler/proximity/passage.hpp"
+#include "feeler/proximity/plane_cache.hpp"
+
+namespace feeler {
+
+/// A triangle that the sweep examines first, with what is known of it from before.
+template <class Scalar>
+struct KnownTriangle {
+  int triangle = -1;
+  PassedTriangle<Scalar> state;
+};
+
+/// A triangle that blocks a motion, and the time up to which it certainly does not.
+template <class Scalar>
+struct Blocker {
+  int triangle = -1;
+  Scalar time = Scalar(0);
+};
+
+/// Result of a sweep: the motion is free of collision on [0, time].
+template <class Scalar>
+struct SweepResult {
+  static constexpr int blocker_capacity = 24;
+
+  Scalar time = Scalar(1);
+  FixedVector<Blocker<Scalar>, blocker_capacity> blockers;
+  bool is_exhausted = false;  ///< the work limit was reached: nothing is certified, time is 0
+};
+
+/// Certifies motions of a tool against a triangle mesh with one traversal of its bounding volume hierarchy.
+///
+/// A box or a triangle passes if one cached plane holds over the whole motion (`PlaneCache`); a triangle that no plane passes is measured
+/// (`pass`), which gives a new plane or a blocker. After an early blocker the motion is shortened for the rest, though not to the
+/// blocker itself: the ones just behind it are better known at once.
+template <ConvexTool Tool>
+class Sweep {
+ public:
+  using Scalar = typename Tool::Scalar;
+  using Vector = Vector3<Scalar>;
+
+  /// Boxes and triangles tested that count as much work as one distance query.
+  static constexpr int tests_per_work = 24;
+
+  Sweep(PlaneCache<Scalar>& planes, const Clearance<Scalar>& clearance) noexcept
+      : planes_(planes), clearance_(clearance) {}
+
+  /// @param known   triangles to examine first, exactly; the traversal skips them
+  /// @param work    grows by the work done
+  /// @param limit   value of `work` at which the sweep gives up
+  template <class MeshScalar>
+  SweepResult<Scalar> certify(const TriangleMesh<MeshScalar>& mesh, const MovingTool<Tool>& moving,
+                              std::span<const KnownTriangle<Scalar>> known, int& work, int limit) noexcept {
+    SweepResult<Scalar> result;
+    start_ = moving.frame_at(Scalar(0));
+    set_end(moving, Scalar(1), mesh);
+    planes_.age();
+    for (const KnownTriangle<Scalar>& pair : known) {
+      examine(pair.triangle, pair.state, moving, mesh, result, work);
+      if (work > limit) return give_up();
+    }
+
+    const auto& bvh = mesh.bvh();
+    const auto nodes = bvh.nodes();
+    const auto order = bvh.triangle_order();
+    std::array<int, 128> stack;
+    int depth = 0;
+    int tests = 0;
+    if (!passes(nodes[0])) stack[std::size_t(depth++)] = 0;
+    while (depth > 0) {
+      const auto& node = nodes[std::size_t(stack[std::size_t(--depth)])];
+      if (++tests >= tests_per_work) {
+        tests = 0;
+        ++work;
+      }
+      if (work > limit) return give_up();
+      if (node.count == 0) {
+        for (int child = node.first; child < node.first + 2; ++child) {
+          if (!passes(nodes[std::size_t(child)])) stack[std::size_t(depth++)] = child;
+        }
+        continue;
+      }
+      for (int i = node.first; i < node.first + node.count; ++i) {
+        const int triangle = order[std::size_t(i)];
+        const Matrix3<Scalar> corners =
+            mesh.corners(triangle).template cast<Scalar>().colwise() - moving.origin();
+        if (passes(corners) || is_among(triangle, known)) continue;
+        examine(triangle, {corners, Vector::Zero(), {}, false}, moving, mesh, result, work);
+      }
+    }
+    return result;
+  }
+
+ private:
+  using Frame = MotionFrame<Scalar>;
+  struct BoxPlane {
+    std::array<float, 3> normal, size;  // size: the normal's magnitudes
+    float limit;
+  };
+
+  static SweepResult<Scalar> give_up() noexcept {
+    SweepResult<Scalar> result;
+    result.time = Scalar(0);
+    result.is_exhausted = true;
+    return result;
+  }
+
+  static bool is_among(int triangle, std::span<const KnownTriangle<Scalar>> known) noexcept {
+    return std::any_of(known.begin(), known.end(), [triangle](const auto& k) { return k.triangle == triangle; });
+  }
+
+  template <class MeshScalar>
+  void examine(int triangle, const PassedTriangle<Scalar>& state, const MovingTool<Tool>& moving,
+               const TriangleMesh<MeshScalar>& mesh, SweepResult<Scalar>& result, int& work) noexcept {
+    const Passage<Scalar> passage = pass(moving, state, start_, end_, clearance_, work);
+    if (!passage.is_blocked) {
+      if (passage.normal.squaredNorm() > Scalar(0) && !state.is_exact) add_plane(passage.normal, moving, mesh);
+      return;
+    }
+    if (result.blockers.full()) {
+      auto latest = std::max_element(result.blockers.begin(), result.blockers.end(),
+                                     [](const auto& a, const auto& b) { return a.time < b.time; });
+      if (passage.time < latest->time) *latest = {triangle, passage.time};
+    } else {
+      result.blockers.push_back({triangle, passage.time});
+    }
+    if (passage.time < result.time) result.time = passage.time;
+    const Scalar enough = std::max(result.time, Scalar(1) / 4);
+    if (2 * enough <= end_.time) set_end(moving, enough, mesh);
+  }
+
+  /// From here on only [0, time] is certified.
+  template <class MeshScalar>
+  void set_end(const MovingTool<Tool>& moving, Scalar time, const TriangleMesh<MeshScalar>& mesh) noexcept {
+    end_ = moving.frame_at(time);
+    planes_.prepare(moving, start_, end_, clearance_.kept);
+    const Vector to_boxes = moving.origin() - mesh.bvh().origin().template cast<Scalar>();
+    for (int k = 0; k < 3; ++k) {
+      const Vector axis = Vector::Unit(k);
+      const Scalar below = PlaneCache<Scalar>::limit_of(axis, moving, start_, end_, clearance_.kept) + to_boxes[k];
+      const Scalar above = PlaneCache<Scalar>::limit_of(Vector(-axis), moving, start_, end_, clearance_.kept) - to_boxes[k];
+      lower_[std::size_t(k)] = round_down(below, below);
+      upper_[std::size_t(k)] = -round_down(above, above);
+    }
+    for (int i = 0; i < planes_.size(); ++i) set_box_plane(i, moving, mesh);
+  }
+
+  template <class MeshScalar>
+  void add_plane(const Vector& normal, const MovingTool<Tool>& moving,
+                 const TriangleMesh<MeshScalar>& mesh) noexcept {
+    set_box_plane(planes_.add(normal, moving, start_, end_, clearance_.kept), moving, mesh);
+  }
+
+  /// Boxes are float and relative to the hierarchy's origin; a plane for them gives away what rounding could gain.
+  template <class MeshScalar>
+  void set_box_plane(int i, const MovingTool<Tool>& moving, const TriangleMesh<MeshScalar>& mesh) noexcept {
+    const Vector& normal = planes_.normal(i);
+    const Vector to_boxes = moving.origin() - mesh.bvh().origin().template cast<Scalar>();
+    const auto bounds = mesh.bounds();
+    const Scalar extent = Scalar(bounds.diagonal().norm());
+    BoxPlane& plane = box_planes_[std::size_t(i)];
+    for (int k = 0; k < 3; ++k) {
+      plane.normal[std::size_t(k)] = float(normal[k]);
+      plane.size[std::size_t(k)] = std::abs(float(normal[k]));
+    }
+    plane.limit = round_down(planes_.limit(i) + normal.dot(to_boxes), extent);
+  }
+
+  static float round_down(Scalar value, Scalar extent) noexcept {
+    const float rounded = float(value);
+    return rounded - 8 * std::numeric_limits<float>::epsilon() * (std::abs(rounded) + std::abs(float(extent)));
+  }
+
+  template <class Node>
+    requires requires(const Node& node) { node.lower[0]; }
+  bool passes(const Node& node) noexcept {
+    for (std::size_t k = 0; k < 3; ++k) {
+      if (node.upper[k] <= lower_[k] || node.lower[k] >= upper_[k]) return true;
+    }
+    std::array<float, 3> centre, half;
+    for (std::size_t k = 0; k < 3; ++k) {
+      centre[k] = (node.upper[k] + node.lower[k]) / 2;
+      half[k] = (node.upper[k] - node.lower[k]) / 2;
+    }
+    for (int i = 0; i < planes_.size(); ++i) {
+      const BoxPlane& plane = box_planes_[std::size_t(i)];
+      const float height = plane.normal[0] * centre[0] + plane.normal[1] * centre[1] + plane.normal[2] * centre[2] +
+                           plane.size[0] * half[0] + plane.size[1] * half[1] + plane.size[2] * half[2];
+      if (height <= plane.limit) {
+        planes_.count_hit(i);
+        return true;
+      }
+    }
+    return false;
+  }
+
+  bool passes(const Matrix3<Scalar>& corners) noexcept {
+    for (int i = 0; i < planes_.size(); ++i) {
+      if (detail::highest(corners, planes_.normal(i)) <= planes_.limit(i)) {
+        planes_.count_hit(i);
+        return true;
+      }
+    }
+    return false;
+  }
+
+  PlaneCache<Scalar>& planes_;
+  Clearance<Scalar> clearance_;
+  Frame start_;
+  Frame end_;
+  std::array<float, 3> lower_{}, upper_{};
+  std::array<BoxPlane, std::size_t(PlaneCache<Scalar>::capacity)> box_planes_;
+};
+
+}  // namespace feeler

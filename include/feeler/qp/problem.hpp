@@ -1,0 +1,35 @@
+// A strictly convex quadratic program in six variables with inequality rows, at fixed capacity.
+#pragma once
+
+#include <array>
+
+#include "feeler/core/scalar.hpp"
+
+namespace feeler {
+
+/// min ½ dᵀ H d + gᵀ d  subject to  aₖᵀ d ≥ bₖ, k < row_count.
+///
+/// H must be positive definite. Rows come from unit normals, so bₖ and the violation of a row are lengths [m].
+template <RealScalar ScalarType>
+struct QpProblem {
+  using Scalar = ScalarType;
+  static constexpr int row_capacity = 256;
+
+  Matrix6<Scalar> hessian = Matrix6<Scalar>::Identity();
+  Vector6<Scalar> gradient = Vector6<Scalar>::Zero();
+  int row_count = 0;
+  std::array<Vector6<Scalar>, row_capacity> rows;
+  std::array<Scalar, row_capacity> bounds;
+
+  void clear_rows() noexcept { row_count = 0; }
+  /// Appends a row; false when there is no room.
+  bool add_row(const Vector6<Scalar>& row, Scalar bound) noexcept {
+    if (row_count == row_capacity) return false;
+    rows[std::size_t(row_count)] = row;
+    bounds[std::size_t(row_count)] = bound;
+    ++row_count;
+    return true;
+  }
+};
+
+}  // namespace feeler

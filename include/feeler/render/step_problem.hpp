@@ -1,0 +1,128 @@
+// The optimisation of one step: rows that keep a margin where they can, and the Newton step on the Lagrangian.
+#pragma once
+
+#include <algorithm>
+#include <array>
+
+#include <Eigen/Cholesky>
+
+#include "feeler/contact/contact_row.hpp"
+#include "feeler/core/fixed_vector.hpp"
+#include "feeler/core/scalar.hpp"
+#include "feeler/qp/qp_solver.hpp"
+#include "feeler/spatial/metric.hpp"
+
+namespace feeler {
+
+/// Solves for one step d of the tool: min f(d) subject to gapₖ + Jₖ d ≥ targetₖ.
+///
+/// The target is the margin. Rows that together cannot have it (a fit tighter than twice the margin) are asked for less, only those in the
+/// infeasibility certificate: no closer than they were at the last certified pose, of which a tenth of the margin is enough. As
+/// that pose meets them, a step exists.
+template <QpSolver Solver>
+class StepProblem {
+ public:
+  using Scalar = typename Solver::Scalar;
+  using Row = ContactRow<Scalar>;
+  static constexpr int row_capacity = 128;
+
+  void clear() noexcept { rows_.clear(); }
+  /// @param certified_gap  separation of the row's pair at the last certified pose [m]
+  bool add(const Row& row, Scalar certified_gap) noexcept {
+    if (!rows_.push_back(row)) return false;
+    certified_gaps_[index(rows_.size() - 1)] = certified_gap;
+    return true;
+  }
+  int row_count() const noexcept { return rows_.size(); }
+  const Row& row(int k) const noexcept { return rows_[k]; }
+  const QpSolution<Scalar>& solution() const noexcept { return solution_; }
+  /// Separation of a row after the step, to first order [m].
+  Scalar gap_after(int k) const noexcept { return rows_[k].gap + problem_.rows[index(k)].dot(solution_.step); }
+
+  /// The step that minimises f with its own Hessian or, where contacts hold, with the Hessian of the Lagrangian.
+  const Vector6<Scalar>& solve(const Metric<Scalar>& metric, const Twist<Scalar>& graphic_from_haptic,
+                               Scalar margin) noexcept {
+    load_rows(margin);
+    problem_.hessian = metric.hessian({});
+    problem_.gradient = metric.gradient(graphic_from_haptic);
+    solve_relaxing(margin);
+    if (solution_.active.empty()) return solution_.step;
+    set_lagrangian_hessian(metric, graphic_from_haptic);
+    solve_relaxing(margin);
+    return solution_.step;
+  }
+
+  /// The smallest step that meets the rows.
+  const Vector6<Scalar>& restore(const Metric<Scalar>& metric, Scalar margin) noexcept {
+    load_rows(margin);
+    problem_.hessian = metric.hessian({});
+    problem_.gradient.setZero();
+    solve_relaxing(margin);
+    return solution_.step;
+  }
+
+ private:
+  static std::size_t index(int i) noexcept { return std::size_t(i); }
+
+  void load_rows(Scalar margin) noexcept {
+    problem_.clear_rows();
+    for (const Row& row : rows_) problem_.add_row(row.gradient(), margin - row.gap);
+    is_relaxed_.fill(false);
+  }
+
+  void solve_relaxing(Scalar margin) noexcept {
+    constexpr int maximum_rounds = 8;
+    for (int round = 0; round <= maximum_rounds; ++round) {
+      const QpStatus status = solver_.solve(problem_, solution_);
+      if (status == QpStatus::optimal) return;
+      bool has_relaxed = false;
+      if (round < maximum_rounds && status == QpStatus::infeasible) {
+        for (const int k : solution_.conflict) has_relaxed = relax(k, margin) || has_relaxed;
+      }
+      if (has_relaxed) continue;
+      for (int k = 0; k < problem_.row_count; ++k) has_relaxed = relax(k, margin) || has_relaxed;
+      if (!has_relaxed) break;
+    }
+    // Even so rounding or curvature may leave a row short by a hair: stay where rows allow it.
+    for (int k = 0; k < problem_.row_count; ++k) problem_.bounds[index(k)] = std::min(problem_.bounds[index(k)], Scalar(0));
+    if (solver_.solve(problem_, solution_) != QpStatus::optimal) {
+      solution_.step.setZero();
+      solution_.active.clear();
+    }
+  }
+
+  bool relax(int k, Scalar margin) noexcept {
+    if (is_relaxed_[index(k)]) return false;
+    is_relaxed_[index(k)] = true;
+    const Scalar enough = margin / 5;
+    const Scalar target = std::clamp(certified_gaps_[index(k)], Scalar(0), enough);
+    problem_.bounds[index(k)] = std::min(problem_.bounds[index(k)], target - rows_[k].gap);
+    return true;
+  }
+
+  /// H = ∇²f − Σ λₖ ∇²sₖ, with as much of the second term as leaves it positive definite.
+  void set_lagrangian_hessian(const Metric<Scalar>& metric, const Twist<Scalar>& e) noexcept {
+    Matrix6<Scalar> curvature = Matrix6<Scalar>::Zero();
+    for (const auto& active : solution_.active) {
+      curvature += active.multiplier * rows_[active.row].curvature();
+    }
+    const Matrix6<Scalar> base = metric.hessian({});
+    const Matrix6<Scalar> own = metric.hessian(e);
+    for (const Scalar share : {Scalar(1), Scalar(1) / 2, Scalar(1) / 4}) {
+      problem_.hessian = share * (own - curvature) + (Scalar(1) - share) * base;
+      // Not flatter than a twentieth of the metric: a flatter one makes steps that no linearisation can carry.
+      const Eigen::LLT<Matrix6<Scalar>> factor(problem_.hessian - base / 20);
+      if (factor.info() == Eigen::Success) return;
+    }
+    problem_.hessian = base;
+  }
+
+  Solver solver_;
+  QpProblem<Scalar> problem_;
+  QpSolution<Scalar> solution_;
+  FixedVector<Row, row_capacity> rows_;
+  std::array<Scalar, std::size_t(row_capacity)> certified_gaps_;
+  std::array<bool, std::size_t(row_capacity)> is_relaxed_;
+};
+
+}  // namespace feeler
