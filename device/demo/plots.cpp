@@ -6,6 +6,7 @@
 #include <cstdio>
 
 #include "program.hpp"
+#include "run_figure_data.hpp"
 #include "text_file.hpp"
 
 namespace feeler::demo {
@@ -19,12 +20,12 @@ constexpr const char* style =
     "set border 3 lc rgb '#666666'\n"
     "set tics nomirror out scale 0.5 textcolor rgb '#333333'\n"
     "set grid lc rgb '#e6e9ec' lt 1 lw 1\n"
-    "set key top right horizontal samplen 1.6 spacing 1.1 textcolor rgb '#333333'\n";
+    "set key top right horizontal Left reverse samplen 1.6 spacing 1.1 width 1 textcolor rgb '#333333'\n";
 
 /// The force, the torque and the number of contacts over time, one below the other.
 constexpr const char* wrench_body =
     "set multiplot layout 3,1 margins 0.085,0.975,0.085,0.97 spacing 0.035\n"
-    "set xrange [0:duration]; set format x ''\n"
+    "set xrange [0:duration]; set format x ''; set offsets 0, 0, graph 0.2, graph 0.03\n"
     "set ylabel 'force  [N]' offset 1,0\n"
     "plot 'ticks.csv' every every_tick using 1:(sqrt($16**2+$17**2+$18**2)) with filledcurves y1=0 fs solid 0.12 noborder lc rgb ink notitle, \\\n"
     "  '' every every_tick using 1:16 with lines lw 1.4 lc rgb red title 'F_x', \\\n"
@@ -37,39 +38,44 @@ constexpr const char* wrench_body =
     "  '' every every_tick using 1:(1e3*$20) with lines lw 1.4 lc rgb green title 'T_y', \\\n"
     "  '' every every_tick using 1:(1e3*$21) with lines lw 1.4 lc rgb blue title 'T_z', \\\n"
     "  '' every every_tick using 1:(1e3*sqrt($19**2+$20**2+$21**2)) with lines lw 1.6 lc rgb ink title '|T|'\n"
-    "set ylabel 'contacts' offset 1,0; set xlabel 'time  [s]'; set format x '%g'; set yrange [0:most_contacts+1]; set ytics contact_tics\n"
+    "set ylabel 'contacts' offset 1,0; set xlabel 'time  [s]'; set format x '%g'; set offsets; set yrange [0:most_contacts+1]; set ytics contact_tics\n"
     "plot 'ticks.csv' every every_tick using 1:22 with fillsteps fs solid 0.35 noborder lc rgb blue notitle, \\\n"
     "  '' every every_tick using 1:22 with steps lw 1.2 lc rgb blue notitle\n"
     "unset multiplot\n";
 
 /// A dot a tick on a logarithmic axis, with the median and the tail of the contact ticks.
 constexpr const char* time_body =
-    "set lmargin at screen 0.085; set rmargin at screen 0.90; set tmargin at screen 0.94; set bmargin at screen 0.13\n"
+    "set lmargin at screen 0.085; set rmargin at screen 0.88; set tmargin at screen 0.95; set bmargin at screen 0.18\n"
     "set logscale y; set yrange [lowest:highest]; set xrange [0:duration]\n"
     "set xlabel 'time  [s]'; set ylabel 'time per tick  [µs]' offset 1,0\n"
     "set grid mytics lc rgb '#e6e9ec' lt 1 lw 1, lc rgb '#f1f3f5' lt 1 lw 0.6\n"
-    "set label 1 sprintf('p50  %.1f', p50) at screen 0.908, first p50 tc rgb ink\n"
-    "set label 2 sprintf('p99  %.1f', p99) at screen 0.908, first p99 tc rgb amber\n"
-    "set label 3 sprintf('period  %.0f', period) at screen 0.908, first period tc rgb red\n"
-    "plot 'ticks.csv' every every_tick using 1:($22==0?$26:NaN) with points pt 7 ps 0.22 lc rgb soft title 'free', \\\n"
-    "  '' every every_tick using 1:($22>0?$26:NaN) with points pt 7 ps 0.22 lc rgb blue title 'in contact', \\\n"
+    "set label 1 sprintf('p50  %.1f', p50) at screen 0.89, first p50 tc rgb ink\n"
+    "set label 2 sprintf('p99  %.1f', p99) at screen 0.89, first p99 tc rgb amber\n"
+    "set label 3 sprintf('period  %.0f', period) at screen 0.89, first period tc rgb red\n"
+    "plot 'ticks.csv' every every_tick using 1:($22==0?$26:NaN) with points pt 7 ps 0.22 lc rgb soft notitle, \\\n"
+    "  '' every every_tick using 1:($22>0?$26:NaN) with points pt 7 ps 0.22 lc rgb blue notitle, \\\n"
+    "  NaN with points pt 7 ps 0.7 lc rgb soft title 'free', NaN with points pt 7 ps 0.7 lc rgb blue title 'in contact', \\\n"
     "  p50 with lines lw 1.6 lc rgb ink notitle, p99 with lines lw 1.6 lc rgb amber notitle, \\\n"
     "  period with lines lw 1.2 dt 2 lc rgb red notitle\n";
 
 /// The object and the way of the tool's tip: the hand in red, the tool in grey, as in the paper's video; both tools at the peak force.
 constexpr const char* run_body =
     "unset border; unset tics; unset grid; unset colorbox\n"
-    "set lmargin at screen 0.02; set rmargin at screen 0.98; set tmargin at screen 0.98; set bmargin at screen 0.02\n"
+    "set multiplot\n"
+    "set lmargin at screen 0.0; set rmargin at screen 1.0; set tmargin at screen 1.0; set bmargin at screen 0.0\n"
     "set view equal xyz; set view tilt, turn, zoom; set xyplane relative 0\n"
     "set xrange [x0:x1] noextend; set yrange [y0:y1] noextend; set zrange [z0:z1] noextend\n"
-    "set pm3d depthorder border lc rgb edge_colour lw edge_width; set pm3d lighting primary 0.5 specular 0.1\n"
-    "set style fill transparent solid opacity\n"
-    "set key at screen 0.97, 0.95 vertical samplen 2\n"
-    "splot 'run.dat' index 0 using 1:2:3 with polygons fc rgb '#dcd3c3' notitle, \\\n"
-    "  '' index 1 using 1:2:3 with lines lw 1.0 lc rgb red title 'haptic tool: where the hand is', \\\n"
-    "  '' index 1 using 4:5:6 with lines lw 1.6 lc rgb '#3d4852' title 'graphic tool: where it may be', \\\n"
-    "  '' index 2 using 1:2:3 with lines lw 1.1 lc rgb red notitle, \\\n"
-    "  '' index 3 using 1:2:3 with lines lw 1.1 lc rgb '#3d4852' notitle\n";
+    "set palette defined (0 '#7d7364', 1 '#f6f0e4'); set cbrange [0:1]\n"
+    "set pm3d depthorder border lc rgb edge_colour lw edge_width\n"
+    "set style fill transparent solid opacity noborder\n"
+    "splot 'run_object.dat' using 1:2:3:4 with pm3d notitle\n"
+    // Over the object, so that the way of the hand can be seen inside it.
+    "set key at screen 0.97, 0.95 vertical Left reverse samplen 2\n"
+    "splot 'run.dat' index 0 using 1:2:3 with lines lw 0.9 lc rgb red title 'haptic tool: where the hand is', \\\n"
+    "  '' index 0 using 4:5:6 with lines lw 1.5 lc rgb '#26323c' title 'graphic tool: where it may be', \\\n"
+    "  '' index 1 using 1:2:3:4:5:6 with vectors nohead lw 1.2 lc rgb red notitle, \\\n"
+    "  '' index 2 using 1:2:3:4:5:6 with vectors nohead lw 1.2 lc rgb '#26323c' notitle\n"
+    "unset multiplot\n";
 
 /// Draws `body` twice: for the screen and for print.
 void write_script(const std::filesystem::path& file, const std::string& name, int width, int height,
@@ -99,95 +105,6 @@ std::string assignment(const char* name, double value) {
   return text;
 }
 
-/// Writes run.dat [mm]: triangles, ways of both tips, then the edges of both tools at the peak force; blocks apart by two blank lines.
-class RunData {
- public:
-  RunData(const std::filesystem::path& file, const scenes::Scene& scene, const std::vector<TickRecord>& ticks)
-      : text_(file), scene_(scene), ticks_(ticks) {
-    for (const TickRecord& tick : ticks_) {
-      box_.extend(1e3 * (tick.haptic * scene_.tip));
-      box_.extend(1e3 * (tick.graphic * scene_.tip));
-    }
-    const double around = 0.25 * box_.sizes().maxCoeff() + 5.0;
-    box_ = Eigen::AlignedBox3d((box_.min().array() - around).matrix(), (box_.max().array() + around).matrix());
-    box_ = box_.intersection(object_box().merged(box_.intersection(object_box())));
-    write_triangles();
-    write_ways();
-    const auto& peak = *std::max_element(ticks_.begin(), ticks_.end(), [](const auto& a, const auto& b) {
-      return a.wrench.force.squaredNorm() < b.wrench.force.squaredNorm();
-    });
-    write_tool(peak.haptic);
-    write_tool(peak.graphic);
-    text_.close();
-  }
-
-  const Eigen::AlignedBox3d& box() const { return box_; }  ///< of what is drawn [mm]
-  std::size_t drawn_triangles() const { return drawn_; }
-
- private:
-  static constexpr std::size_t most_triangles = 40000;
-  static constexpr std::size_t most_points = 6000;
-
-  Eigen::AlignedBox3d object_box() const {
-    Eigen::AlignedBox3d box;
-    for (Eigen::Index i = 0; i < scene_.vertices.rows(); ++i) box.extend(corner(int(i)));
-    return box;
-  }
-  Vector3<double> corner(int vertex) const { return 1e3 * scene_.vertices.row(vertex).transpose(); }
-  void write(const Vector3<double>& p) { text_.print("%.6g,%.6g,%.6g\n", p.x(), p.y(), p.z()); }
-
-  void write_triangles() {
-    std::vector<Eigen::Index> near;
-    for (Eigen::Index i = 0; i < scene_.triangles.rows(); ++i) {
-      const Vector3<double> a = corner(scene_.triangles(i, 0));
-      if (scene_.triangles.rows() < 1000 || box_.contains(a)) near.push_back(i);
-    }
-    const std::size_t stride = near.size() / most_triangles + 1;
-    for (std::size_t i = 0; i < near.size(); i += stride) {
-      for (int k : {0, 1, 2, 0}) {
-        const Vector3<double> p = corner(scene_.triangles(near[i], k));
-        box_.extend(p);
-        write(p);
-      }
-      text_.print("\n");
-      ++drawn_;
-    }
-    text_.print("\n");
-  }
-
-  void write_ways() {
-    const std::size_t stride = ticks_.size() / most_points + 1;
-    for (std::size_t i = 0; i < ticks_.size(); i += stride) {
-      const Vector3<double> h = 1e3 * (ticks_[i].haptic * scene_.tip);
-      const Vector3<double> g = 1e3 * (ticks_[i].graphic * scene_.tip);
-      text_.print("%.6g,%.6g,%.6g,%.6g,%.6g,%.6g\n", h.x(), h.y(), h.z(), g.x(), g.y(), g.z());
-    }
-    text_.print("\n\n");
-  }
-
-  void write_tool(const Pose<double>& pose) {
-    std::visit(
-        [&](const auto& tool) {
-          for (int i = 0; i < tool.edge_count(); ++i) {
-            for (int vertex : {tool.edge(i).start, tool.edge(i).end}) {
-              const Vector3<double> p = 1e3 * (pose * Vector3<double>(tool.vertex(vertex)));
-              box_.extend(p);
-              write(p);
-            }
-            text_.print("\n");
-          }
-        },
-        scene_.tool);
-    text_.print("\n");
-  }
-
-  TextFile text_;
-  const scenes::Scene& scene_;
-  const std::vector<TickRecord>& ticks_;
-  Eigen::AlignedBox3d box_;
-  std::size_t drawn_ = 0;
-};
-
 std::string wrench_settings(const std::vector<TickRecord>& ticks) {
   int most_contacts = 0;
   for (const TickRecord& tick : ticks) most_contacts = std::max(most_contacts, tick.contacts);
@@ -206,14 +123,19 @@ std::string time_settings(const std::vector<TickRecord>& ticks, const Summary& s
          assignment("p99", std::max(summary.tick_time.p99, p50 * 1.0001)) + assignment("period", 1e6 / summary.wanted_rate);
 }
 
-std::string run_settings(const RunData& data) {
-  const Eigen::AlignedBox3d& box = data.box();
+std::string run_settings(const RunFigureData& data) {
+  // A cube about all that is drawn: from any side it then fills the picture alike.
+  const Vector3<double> centre = data.box().center();
+  const double half = data.box().sizes().norm() / 2.0;
+  std::string settings;
+  for (int k = 0; k < 3; ++k) {
+    const std::string axis(1, char('x' + k));
+    settings += assignment((axis + "0").c_str(), centre[k] - half) + assignment((axis + "1").c_str(), centre[k] + half);
+  }
   const bool is_simple = data.drawn_triangles() < 1000;
-  return assignment("x0", box.min().x()) + assignment("x1", box.max().x()) + assignment("y0", box.min().y()) +
-         assignment("y1", box.max().y()) + assignment("z0", box.min().z()) + assignment("z1", box.max().z()) +
-         assignment("tilt", 55) + assignment("turn", 30) + assignment("zoom", 1.4) +
-         assignment("opacity", is_simple ? 0.35 : 1.0) + assignment("edge_width", is_simple ? 0.6 : 0.05) +
-         "edge_colour = '" + (is_simple ? "#8d877c" : "#c9bfae") + "'\n";
+  return settings + assignment("tilt", RunFigureData::tilt) + assignment("turn", RunFigureData::turn) +
+         assignment("zoom", 1.7) + assignment("opacity", is_simple ? 0.45 : 1.0) +
+         assignment("edge_width", is_simple ? 0.7 : 0.05) + "edge_colour = '" + (is_simple ? "#8d877c" : "#b9ae9b") + "'\n";
 }
 
 }  // namespace
@@ -223,8 +145,8 @@ std::vector<Figure> draw_figures(const std::filesystem::path& folder, const scen
   const double duration = ticks.empty() ? 1.0 : std::max(ticks.back().time, 1e-3);
   // More points than pixels make files large and nothing clearer.
   const std::string common =
-      assignment("duration", duration) + assignment("every_tick", double(ticks.size() / 8000 + 1));
-  const RunData data(folder / "run.dat", scene, ticks);
+      assignment("duration", duration) + assignment("every_tick", double(ticks.size() / 4000 + 1));
+  const RunFigureData data(folder, scene, ticks);
 
   write_script(folder / "wrench.gp", "wrench", 1000, 760, common + wrench_settings(ticks), wrench_body);
   write_script(folder / "tick_time.gp", "tick_time", 1000, 420, common + time_settings(ticks, summary), time_body);

@@ -26,7 +26,7 @@ scenes::Tool load_tool(const Options& options) {
   try {
     return ConvexPolytope<double>::hull_of(mesh.vertices);
   } catch (const std::invalid_argument& refusal) {
-    throw BadInput("The tool " + options.tool->string() + " has no convex hull to use. " + refusal.what());
+    throw BadInput("The tool " + options.tool->string() + " cannot be used: " + refusal.what());
   }
 }
 

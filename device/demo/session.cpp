@@ -11,6 +11,7 @@
 #include "feeler/device/servo_loop.hpp"
 #include "feeler/object/triangle_mesh.hpp"
 #include "feeler/render/haptic_renderer.hpp"
+#include "verification.hpp"
 
 namespace feeler::demo {
 namespace {
@@ -49,7 +50,8 @@ Recording run(const scenes::Scene& scene, const Tool& tool, const SessionSetting
               const ProgressSink& report) {
   const TriangleMesh<double> object(scene.vertices, scene.triangles);
   HapticRenderer renderer(object, tool, scene.settings());
-  if (renderer.reset(scene.start) == Status::penetrating) {
+  // A renderer is not the judge of its own start: the checker must agree.
+  if (renderer.reset(scene.start) != Status::converged || !is_free(scene, scene.start)) {
     throw BadInput("The start pose of the scene " + scene.name +
                    " penetrates the object: start outside (--start) or give a clearance of 0 or more (--clearance).");
   }

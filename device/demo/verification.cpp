@@ -10,12 +10,16 @@
 namespace feeler::demo {
 namespace {
 
+test::CheckedTool checked_tool_of(const scenes::Scene& scene) {
+  return std::visit([](const auto& tool) { return test::checked_tool(tool); }, scene.tool);
+}
+
 /// Checks one tick after the other and keeps the deepest of each kind.
 class RunChecker {
  public:
   RunChecker(const scenes::Scene& scene, const std::vector<TickRecord>& ticks)
       : object_(scene.vertices, scene.triangles),
-        tool_(std::visit([](const auto& tool) { return test::checked_tool(tool); }, scene.tool)),
+        tool_(checked_tool_of(scene)),
         ticks_(ticks) {}
 
   void check(std::size_t tick, Verification& result) const {
@@ -46,6 +50,12 @@ class RunChecker {
 };
 
 }  // namespace
+
+bool is_free(const scenes::Scene& scene, const Pose<double>& pose) {
+  const test::CheckedObject object(scene.vertices, scene.triangles);
+  const auto found = test::deepest_penetration(object, checked_tool_of(scene), test::checked_pose(pose));
+  return double(found.depth) <= Verification::tolerance;
+}
 
 Verification verify(const scenes::Scene& scene, const std::vector<TickRecord>& ticks, double budget_seconds) {
   using Clock = std::chrono::steady_clock;

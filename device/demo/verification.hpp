@@ -25,6 +25,9 @@ struct Verification {
   bool penetrated() const { return pose_depth > tolerance || path_depth > tolerance; }
 };
 
+/// Whether the checker finds the tool free at a pose, to the tolerance.
+bool is_free(const scenes::Scene& scene, const Pose<double>& pose);
+
 /// Checks every triangle at the graphic poses and between them; where that would take longer than the budget, at evenly spread ticks.
 /// @param budget_seconds  about, on this thread
 Verification verify(const scenes::Scene& scene, const std::vector<TickRecord>& ticks, double budget_seconds);
