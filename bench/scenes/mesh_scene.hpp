@@ -24,6 +24,11 @@ inline double reach(const Tool& tool, const Quaternion<double>& rotation, const 
       [&](const auto& shape) { return direction_tool.dot(Vector(shape.vertex(shape.support(direction_tool)))); }, tool);
 }
 
+/// The vertex of a tool with the least z, in the tool frame [m]: with what it presses.
+inline Vector lowest_vertex(const Tool& tool) {
+  return std::visit([](const auto& shape) { return Vector(shape.vertex(shape.support(-Vector::UnitZ()))); }, tool);
+}
+
 /// Radius of the ball about the origin of the tool frame that holds the tool [m].
 inline double radius(const Tool& tool) {
   return std::visit(
@@ -47,6 +52,7 @@ inline Scene mesh_scene(std::string name, Points<double> vertices, Triangles tri
   scene.vertices = std::move(vertices);
   scene.triangles = std::move(triangles);
   scene.tool = std::move(tool);
+  scene.tip = lowest_vertex(scene.tool);
 
   const Eigen::AlignedBox3d box = bounds(scene.vertices, scene.triangles);
   const Vector centre = box.center();

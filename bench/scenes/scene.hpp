@@ -29,6 +29,7 @@ struct Setting {
   Triangles triangles;      ///< rows of `vertices`
   Pose<double> start;       ///< free of collision; where the renderer is reset
   Motion motion;            ///< of the device; motion(0) is `start`
+  Vector3<double> tip = Vector3<double>::Zero();  ///< point of the tool to look at, in the tool frame [m]
   double length = 0.01;     ///< L of the metric diag(1, 1, 1, L², L², L²) [m]
   double duration = 10.0;   ///< of a full run [s]
 

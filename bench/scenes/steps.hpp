@@ -40,6 +40,7 @@ inline Scene steps_without_tool() {
                     0.05 - approach(t) * (0.033 + 0.008 * std::sin(5.0 * t))});
   };
   scene.start = scene.motion(0.0);
+  scene.tip = Vector(0.0, 0.0, -0.015);
   scene.length = 0.008;
   return scene;
 }

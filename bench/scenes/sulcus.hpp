@@ -8,7 +8,10 @@
 
 namespace feeler::scenes {
 
-/// A probe of 40 mm along z with a pointed tip at z = −20.4 mm: the hull of 13 points.
+/// The point of the slender probe, in the tool frame [m].
+inline const Vector probe_tip(0.0, 0.0, -0.0204);
+
+/// A probe of 40 mm along z with a pointed tip: the hull of 13 points.
 inline ConvexPolytope<double> slender_probe() {
   Points<double> points(13, 3);
   for (int i = 0; i < 6; ++i) {
@@ -16,7 +19,7 @@ inline ConvexPolytope<double> slender_probe() {
     points.row(i) << 0.0005 * std::cos(angle), 0.0005 * std::sin(angle), -0.020;
     points.row(6 + i) << 0.0008 * std::cos(angle), 0.0008 * std::sin(angle), 0.020;
   }
-  points.row(12) << 0.0, 0.0, -0.0204;
+  points.row(12) = probe_tip.transpose();
   return ConvexPolytope<double>::hull_of(points);
 }
 
@@ -39,6 +42,7 @@ inline Scene sulcus() {
   scene.description = "A slender probe follows the groove between tooth and gum.";
   mesh_height_field({-0.025, 0.025, -0.012, 0.012, 120, 60}, sulcus_height, scene.vertices, scene.triangles);
   scene.tool = slender_probe();
+  scene.tip = probe_tip;
   scene.motion = [](double t) {
     return pose_of({0.35 * std::sin(2.9 * t), 0.3 * std::sin(3.7 * t), 0.5 * std::sin(2.0 * t)},
                    {0.018 * std::sin(3.0 * t), 0.002 * std::sin(11.0 * t),

@@ -69,6 +69,7 @@ inline Scene lower_teeth(Points<double> vertices, Triangles triangles) {
   scene.vertices = std::move(vertices);
   scene.triangles = std::move(triangles);
   scene.tool = slender_probe();
+  scene.tip = probe_tip;
 
   const DentalArch arch;
   const auto place = [arch](double t) {
@@ -91,9 +92,9 @@ inline Scene lower_teeth(Points<double> vertices, Triangles triangles) {
     const double depth = 0.0015 + 0.001 * std::sin(6.1 * t);
     const double a = approach(t);
     const double share = a * a * (3.0 - 2.0 * a);
-    Vector tip = place(s);
-    tip.z() = above + share * (surface(s) - depth - above);
-    return Pose<double>{tip - rotation * Vector(0.0, 0.0, -0.0204), rotation};
+    Vector point = place(s);
+    point.z() = above + share * (surface(s) - depth - above);
+    return Pose<double>{point - rotation * probe_tip, rotation};
   };
   scene.start = scene.motion(0.0);
   scene.length = 0.0055;

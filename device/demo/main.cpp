@@ -1,0 +1,83 @@
+// feeler-demo: runs scenes on a simulated haptic device and reports what happened.
+//
+// Exit code 0: nothing penetrated; 1: something did; 2: the input cannot be used.
+#include <cstdio>
+#include <exception>
+
+#include "bad_input.hpp"
+#include "options.hpp"
+#include "report.hpp"
+#include "scene_choice.hpp"
+#include "session.hpp"
+#include "summary.hpp"
+
+namespace feeler::demo {
+namespace {
+
+constexpr int success = 0, penetrated = 1, bad_input = 2, failure = 3;
+
+constexpr double checking_seconds = 15.0;
+
+void print_progress(const Progress& p) {
+  std::printf("  %6.2f s   %7.1f Hz   %8.1f µs a tick   %2d contacts   %6.2f N   %lld missed\n", p.time, p.rate,
+              p.microseconds, p.contacts, p.force, static_cast<long long>(p.missed));
+  std::fflush(stdout);
+}
+
+void print_table(const Summary& summary) {
+  std::printf("\n");
+  for (const auto& [name, value] : table_of(summary)) std::printf("  %-28s %s\n", name.c_str(), value.c_str());
+}
+
+/// Runs one scene from start to report.
+int run_scene(const ChosenScene& chosen, const Options& options, const std::filesystem::path& out) {
+  const scenes::Scene& scene = chosen.scene;
+  const SessionSettings session{options.rate, options.seconds, options.seed};
+  ReportFolder folder(out);
+  std::printf("%s: %s %lld triangles.\n", scene.name.c_str(), scene.description.c_str(),
+              static_cast<long long>(scene.triangles.rows()));
+
+  const Recording recording = run_session(scene, session, print_progress);
+  for (const std::string& refusal : recording.servo.setup.refused) std::printf("  note: %s\n", refusal.c_str());
+  std::printf("  checking every triangle at the poses and between them …\n");
+  std::fflush(stdout);
+  const Verification verification = verify(scene, recording.ticks, checking_seconds);
+  const Summary summary = summarise(scene, recording, verification, options.rate);
+  print_table(summary);
+
+  if (!write_report(folder.partial(), {chosen, session, recording, summary})) {
+    std::printf("  note: no figures, because gnuplot did not run; install gnuplot-nox to have them.\n");
+  }
+  folder.publish();
+  std::printf("  report: %s\n\n", (folder.target() / "report.html").c_str());
+  std::fflush(stdout);
+  return verification.penetrated() ? penetrated : success;
+}
+
+int run(int argument_count, const char* const* arguments) {
+  const auto [options, exit_code] = read_command_line(argument_count, arguments);
+  if (exit_code) return *exit_code;
+  int worst = success;
+  for (const ChosenScene& chosen : choose_scenes(options)) {
+    const bool is_alone = options.scene.has_value();
+    const std::filesystem::path out = options.out.value_or("out");
+    const int code = run_scene(chosen, options, is_alone && options.out ? out : out / chosen.scene.name);
+    worst = std::max(worst, code);
+  }
+  return worst;
+}
+
+}  // namespace
+}  // namespace feeler::demo
+
+int main(int argument_count, char** arguments) {
+  try {
+    return feeler::demo::run(argument_count, arguments);
+  } catch (const feeler::demo::BadInput& problem) {
+    std::fprintf(stderr, "feeler-demo: %s\n", problem.what());
+    return feeler::demo::bad_input;
+  } catch (const std::exception& problem) {
+    std::fprintf(stderr, "feeler-demo: %s\n", problem.what());
+    return feeler::demo::failure;
+  }
+}

@@ -1,0 +1,76 @@
+// The command line, read with CLI11: the only file that includes it, because it is slow to compile.
+#include "options.hpp"
+
+#include <cmath>
+#include <iostream>
+
+#include <CLI/CLI.hpp>
+
+#include "bad_input.hpp"
+#include "feeler/core/version.hpp"
+
+namespace feeler::demo {
+namespace {
+
+constexpr double maximum_ticks = 5e6;
+
+void require(bool condition, const std::string& sentence) {
+  if (!condition) throw BadInput(sentence);
+}
+
+void validate(const Options& options) {
+  const auto within = [](double value, double low, double high) { return value >= low && value <= high; };
+  require(within(options.scale, 1e-9, 1e9), "--scale must be between 1e-9 and 1e9 metres a unit.");
+  require(within(options.clearance, -0.01, 0.01),
+          "--clearance must be between -0.01 and 0.01 m; below 0 the cube does not fit.");
+  require(within(options.triangles, 2, 4e6), "--triangles must be between 2 and 4000000.");
+  require(within(options.rate, 10.0, 2e4), "--rate must be between 10 and 20000 Hz.");
+  require(within(options.seconds, 0.01, 3600.0), "--seconds must be between 0.01 and 3600.");
+  require(options.rate * options.seconds <= maximum_ticks,
+          "--rate times --seconds is more than 5 million ticks: every tick is kept in memory, so ask for fewer.");
+  require(!options.start || options.start->allFinite(), "--start must be three finite numbers, in metres.");
+  const bool has_file = options.object || options.tool || options.start;
+  require(!has_file || !options.scene || *options.scene == "file",
+          "--object, --tool and --start belong to --scene file: leave them out or choose that scene.");
+}
+
+}  // namespace
+
+CommandLine read_command_line(int argument_count, const char* const* arguments) {
+  CommandLine result;
+  Options& options = result.options;
+  std::vector<double> start;
+
+  CLI::App app("Renders rigid contact to a simulated 6-DOF haptic device and writes a report that anybody can check.",
+               "feeler-demo");
+  app.set_version_flag("--version", FEELER_VERSION);
+  app.add_option("--scene", options.scene, "default: cavity, steps and a real mesh, one after the other")
+      ->check(CLI::IsMember({"cavity", "steps", "terrain", "plate", "sulcus", "file"}));
+  app.add_option("--object", options.object, "mesh file of the object: STL, OBJ, PLY or OFF");
+  app.add_option("--tool", options.tool, "mesh file of the tool; its convex hull is taken (default: a slender probe)");
+  app.add_option("--scale", options.scale, "metres a unit of both files")->capture_default_str();
+  app.add_option("--start", start, "where the tool of --scene file begins [m] (default: outside the object)")
+      ->type_name("X,Y,Z")
+      ->expected(3)
+      ->delimiter(',');
+  app.add_option("--clearance", options.clearance, "of the cavity [m]")->capture_default_str();
+  app.add_option("--triangles", options.triangles, "of the terrain, about")->capture_default_str();
+  app.add_option("--rate", options.rate, "of the servo loop [Hz]")->capture_default_str();
+  app.add_option("--seconds", options.seconds, "a scene")->capture_default_str();
+  app.add_option("--seed", options.seed, "of everything random")->capture_default_str();
+  app.add_option("--out", options.out, "folder of the report (default: out/, a folder a scene in it)");
+  try {
+    app.parse(argument_count, arguments);
+  } catch (const CLI::Success& success) {
+    result.exit_code = app.exit(success, std::cout, std::cerr);
+    return result;
+  } catch (const CLI::ParseError& error) {
+    throw BadInput(std::string(error.what()) + ": see feeler-demo --help.");
+  }
+  if (!start.empty()) options.start = Vector3<double>(start[0], start[1], start[2]);
+  if (options.object && !options.scene) options.scene = "file";
+  validate(options);
+  return result;
+}
+
+}  // namespace feeler::demo

@@ -1,0 +1,14 @@
+// Another program, run to its end.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace feeler::demo {
+
+/// Runs a program of the search path in a folder, with its output thrown away.
+/// @return its exit code, or 127 where it cannot be run
+int run_program(const std::filesystem::path& folder, const std::vector<std::string>& command);
+
+}  // namespace feeler::demo

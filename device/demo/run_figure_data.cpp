@@ -1,0 +1,105 @@
+// What of a run is worth drawing, and how bright.
+#include "run_figure_data.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+
+#include "text_file.hpp"
+
+namespace feeler::demo {
+namespace {
+
+using Vector = Vector3<double>;
+
+constexpr std::size_t most_triangles = 40000;
+constexpr std::size_t most_points = 4000;
+constexpr Eigen::Index few_triangles = 50000;
+
+/// From the scene to the eye, unit.
+Vector to_eye() {
+  constexpr double degree = std::numbers::pi / 180.0;
+  const double tilt = RunFigureData::tilt * degree, turn = RunFigureData::turn * degree;
+  return {std::sin(tilt) * std::sin(turn), -std::sin(tilt) * std::cos(turn), std::cos(tilt)};
+}
+
+/// Brightness in [0, 1] of a triangle seen from the eye, lit from above its left shoulder; both sides are alike.
+double brightness(const std::array<Vector, 3>& corners) {
+  Vector normal = (corners[1] - corners[0]).cross(corners[2] - corners[0]).normalized();
+  if (normal.dot(to_eye()) < 0.0) normal = -normal;
+  const Vector to_light = Vector(-0.45, -0.35, 0.82).normalized();
+  return 0.25 + 0.75 * std::max(0.0, normal.dot(to_light));
+}
+
+}  // namespace
+
+RunFigureData::RunFigureData(const std::filesystem::path& folder, const scenes::Scene& scene,
+                             const std::vector<TickRecord>& ticks)
+    : scene_(scene), ticks_(ticks) {
+  for (const TickRecord& tick : ticks_) {
+    box_.extend(1e3 * (tick.haptic * scene_.tip));
+    box_.extend(1e3 * (tick.graphic * scene_.tip));
+  }
+  write_object(folder / "run_object.dat");
+  write_ways_and_tools(folder / "run.dat");
+}
+
+void RunFigureData::write_object(const std::filesystem::path& file) {
+  const auto corner = [&](Eigen::Index triangle, int k) {
+    return Vector(1e3 * scene_.vertices.row(scene_.triangles(triangle, k)).transpose());
+  };
+  const double around = 0.25 * box_.sizes().maxCoeff() + 5.0;
+  const Eigen::AlignedBox3d near_box((box_.min().array() - around).matrix(), (box_.max().array() + around).matrix());
+  std::vector<Eigen::Index> near;
+  for (Eigen::Index i = 0; i < scene_.triangles.rows(); ++i) {
+    if (scene_.triangles.rows() < few_triangles || near_box.contains(corner(i, 0))) near.push_back(i);
+  }
+
+  TextFile text(file);
+  const std::size_t stride = near.size() / most_triangles + 1;
+  for (std::size_t i = 0; i < near.size(); i += stride) {
+    const std::array<Vector, 3> corners{corner(near[i], 0), corner(near[i], 1), corner(near[i], 2)};
+    const double light = brightness(corners);
+    for (int k : {0, 1, 2, 2}) {
+      const Vector& p = corners[std::size_t(k)];
+      box_.extend(p);
+      text.print("%.6g,%.6g,%.6g,%.3f\n", p.x(), p.y(), p.z(), light);
+      if (k == 1) text.print("\n");
+    }
+    text.print("\n\n");
+    ++drawn_;
+  }
+  text.close();
+}
+
+void RunFigureData::write_ways_and_tools(const std::filesystem::path& file) {
+  TextFile text(file);
+  const auto write = [&](const Vector& a, const Vector& b) {
+    text.print("%.6g,%.6g,%.6g,%.6g,%.6g,%.6g\n", a.x(), a.y(), a.z(), b.x(), b.y(), b.z());
+  };
+  const std::size_t stride = ticks_.size() / most_points + 1;
+  for (std::size_t i = 0; i < ticks_.size(); i += stride) {
+    write(1e3 * (ticks_[i].haptic * scene_.tip), 1e3 * (ticks_[i].graphic * scene_.tip));
+  }
+  const auto peak = std::max_element(ticks_.begin(), ticks_.end(), [](const TickRecord& a, const TickRecord& b) {
+    return a.wrench.force.squaredNorm() < b.wrench.force.squaredNorm();
+  });
+  for (const Pose<double>& pose : {peak->haptic, peak->graphic}) {
+    text.print("\n\n");
+    std::visit(
+        [&](const auto& tool) {
+          for (int i = 0; i < tool.edge_count(); ++i) {
+            const Vector a = 1e3 * (pose * Vector(tool.vertex(tool.edge(i).start)));
+            const Vector b = 1e3 * (pose * Vector(tool.vertex(tool.edge(i).end)));
+            box_.extend(a);
+            box_.extend(b);
+            write(a, Vector(b - a));
+          }
+        },
+        scene_.tool);
+  }
+  text.close();
+}
+
+}  // namespace feeler::demo

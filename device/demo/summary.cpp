@@ -1,0 +1,112 @@
+// Statistics over contact ticks, and their table.
+#include "summary.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+#include "feeler/spatial/metric.hpp"
+
+namespace feeler::demo {
+namespace {
+
+template <class... Values>
+std::string format(const char* pattern, Values... values) {
+  char text[200];
+#pragma GCC diagnostic push
+#pragma GCC diagnostic ignored "-Wformat-nonliteral"
+  std::snprintf(text, sizeof text, pattern, values...);
+#pragma GCC diagnostic pop
+  return text;
+}
+
+std::string depth_text(double depth, std::size_t tick) {
+  if (!(depth > 0.0)) return "none";
+  return format("%.3g µm at tick %zu%s", 1e6 * depth, tick,
+                depth > Verification::tolerance ? "" : " (within the tolerance of 0.1 nm)");
+}
+
+void add_steps(const std::vector<TickRecord>& ticks, Summary& summary) {
+  for (std::size_t i = 1; i < ticks.size(); ++i) {
+    const TickRecord &before = ticks[i - 1], &here = ticks[i];
+    const Twist<double> step = motion_between(before.graphic, here.graphic);
+    summary.largest_translation = std::max(summary.largest_translation, step.linear.norm());
+    summary.largest_rotation = std::max(summary.largest_rotation, step.angular.norm());
+    summary.largest_force_step =
+        std::max(summary.largest_force_step, (here.wrench.force - before.wrench.force).norm());
+    summary.largest_torque_step =
+        std::max(summary.largest_torque_step, (here.wrench.torque - before.wrench.torque).norm());
+  }
+}
+
+}  // namespace
+
+Distribution distribution_of(std::vector<double> values) {
+  if (values.empty()) return {};
+  std::sort(values.begin(), values.end());
+  const auto at = [&](double share) {
+    const auto rank = std::size_t(std::ceil(share * double(values.size())));
+    return values[std::clamp<std::size_t>(rank, 1, values.size()) - 1];
+  };
+  return {at(0.5), at(0.99), at(0.999), values.back()};
+}
+
+bool is_contact(const TickRecord& tick, double metric_length) {
+  const auto metric = Metric<double>::with_length(metric_length);
+  return metric.energy(motion_between(tick.haptic, tick.graphic)) > 1e-14;
+}
+
+Summary summarise(const scenes::Scene& scene, const Recording& recording, const Verification& verification,
+                  double wanted_rate) {
+  Summary summary;
+  summary.ticks = recording.ticks.size();
+  summary.wanted_rate = wanted_rate;
+  summary.achieved_rate = recording.achieved_rate();
+  summary.missed_deadlines = recording.servo.missed;
+  summary.verification = verification;
+
+  std::vector<double> times, rows, iterations;
+  std::size_t converged = 0;
+  for (const TickRecord& tick : recording.ticks) {
+    summary.peak_force = std::max(summary.peak_force, tick.wrench.force.norm());
+    summary.peak_torque = std::max(summary.peak_torque, tick.wrench.torque.norm());
+    if (!is_contact(tick, scene.length)) continue;
+    times.push_back(tick.microseconds);
+    rows.push_back(tick.rows);
+    iterations.push_back(tick.iterations);
+    if (tick.converged) ++converged;
+  }
+  summary.contact_ticks = times.size();
+  if (!times.empty()) summary.converged_share = double(converged) / double(times.size());
+  summary.tick_time = distribution_of(std::move(times));
+  summary.rows = distribution_of(std::move(rows));
+  summary.iterations = distribution_of(std::move(iterations));
+  add_steps(recording.ticks, summary);
+  return summary;
+}
+
+std::vector<std::pair<std::string, std::string>> table_of(const Summary& s) {
+  const Distribution& t = s.tick_time;
+  const Verification& v = s.verification;
+  const std::string checked = v.stride == 1 ? format("all %zu poses, %d places between each two", v.checked_poses, v.samples)
+                                            : format("%zu poses, every %zuth, %d places before each", v.checked_poses,
+                                                     v.stride, v.samples);
+  return {
+      {"ticks", format("%zu, of them %zu in contact", s.ticks, s.contact_ticks)},
+      {"rate", format("%.1f Hz of %.0f Hz", s.achieved_rate, s.wanted_rate)},
+      {"missed deadlines", format("%lld", static_cast<long long>(s.missed_deadlines))},
+      {"tick time in contact", format("median %.1f, p99 %.1f, p99.9 %.1f, max %.1f µs", t.median, t.p99, t.p999, t.maximum)},
+      {"rows in contact", format("median %.0f, p99 %.0f, max %.0f", s.rows.median, s.rows.p99, s.rows.maximum)},
+      {"iterations in contact",
+       format("median %.0f, p99 %.0f, max %.0f", s.iterations.median, s.iterations.p99, s.iterations.maximum)},
+      {"converged in contact", format("%.2f %%", 100.0 * s.converged_share)},
+      {"deepest penetration, poses", depth_text(v.pose_depth, v.pose_tick)},
+      {"deepest penetration, path", depth_text(v.path_depth, v.path_tick)},
+      {"checked", checked},
+      {"largest pose step", format("%.3f mm, %.3f°", 1e3 * s.largest_translation, s.largest_rotation * 57.29577951308232)},
+      {"largest wrench step", format("%.3f N, %.2f mN·m", s.largest_force_step, 1e3 * s.largest_torque_step)},
+      {"peak force and torque", format("%.2f N, %.1f mN·m", s.peak_force, 1e3 * s.peak_torque)},
+  };
+}
+
+}  // namespace feeler::demo

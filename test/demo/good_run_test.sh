@@ -1,0 +1,79 @@
+#!/bin/sh
+# A short run, and its folder as somebody reads it who knows nothing of the program.
+# usage: good_run_test.sh feeler-demo scratch-folder
+set -u
+demo=$1
+scratch=$2
+failures=0
+
+rm -rf "$scratch"
+mkdir -p "$scratch"
+cd "$scratch" || exit 1
+
+fail() {
+  echo "FAILED: $1"
+  failures=$((failures + 1))
+}
+
+"$demo" --scene cavity --seconds 0.5 --rate 1000 --seed 7 --out run >output.txt 2>error.txt
+code=$?
+[ "$code" -eq 0 ] || fail "exit code $code: $(cat error.txt)"
+[ ! -s error.txt ] || fail "words on the error stream: $(cat error.txt)"
+for word in 'missed deadlines' 'p99.9' 'deepest penetration' 'converged' 'peak force'; do
+  grep -q "$word" output.txt || fail "the table does not say '$word'"
+done
+for file in object.off tool.off ticks.csv scene.json report.html; do
+  [ -s "run/$file" ] || fail "$file is missing or empty"
+done
+ls | grep -q partial && fail 'an unfinished folder was left behind'
+
+# OFF: the cavity has 8 vertices and 12 triangles, the cube 8 vertices.
+[ "$(sed -n 1,2p run/object.off | tr '\n' ' ')" = 'OFF 8 12 0 ' ] || fail 'object.off is not the cavity'
+[ "$(sed -n 2p run/tool.off | cut -d' ' -f1)" = 8 ] || fail 'tool.off is not a cube'
+# 17 digits: the height of the room is 0.0105, which no double is.
+grep -q '0\.0105000000000000' run/object.off || fail 'object.off does not have 17 digits'
+
+header='t,haptic_px,haptic_py,haptic_pz,haptic_qw,haptic_qx,haptic_qy,haptic_qz'
+header=$header',graphic_px,graphic_py,graphic_pz,graphic_qw,graphic_qx,graphic_qy,graphic_qz'
+header=$header',fx,fy,fz,tx,ty,tz,contacts,rows,iterations,converged,tick_us'
+[ "$(head -n 1 run/ticks.csv)" = "$header" ] || fail "the columns are $(head -n 1 run/ticks.csv)"
+[ "$(wc -l <run/ticks.csv)" -eq 501 ] || fail "ticks.csv has $(wc -l <run/ticks.csv) lines, not 501"
+awk -F, 'NR > 1 {
+  if (NF != 26) { print "line " NR " has " NF " columns"; exit 1 }
+  for (i = 1; i <= NF; i++) if ($i !~ /^-?[0-9.]+(e[-+][0-9]+)?$/) { print "line " NR ": " $i; exit 1 }
+  for (q = 5; q <= 12; q += 7) {
+    n = $q * $q + $(q+1) * $(q+1) + $(q+2) * $(q+2) + $(q+3) * $(q+3)
+    if (n < 0.999999999 || n > 1.000000001) { print "line " NR ": quaternion of length " n; exit 1 }
+  }
+  # F = 1000 N/m (p_g - p_h), to the digits of the file
+  for (k = 0; k < 3; k++) {
+    d = $(16+k) - 1000 * ($(9+k) - $(2+k))
+    if (d > 1e-9 || d < -1e-9) { print "line " NR ": force off by " d; exit 1 }
+  }
+  if ($26 <= 0) { print "line " NR ": no time"; exit 1 }
+}' run/ticks.csv >awk.txt || fail "ticks.csv: $(cat awk.txt)"
+
+for key in seed rate_Hz compiler commit margin_m stiffness_translational_N_per_m penetrated; do
+  grep -q "\"$key\"" run/scene.json || fail "scene.json has no $key"
+done
+grep -q '"seed": 7' run/scene.json || fail 'scene.json has another seed'
+
+if command -v gnuplot >/dev/null; then
+  for figure in wrench tick_time run; do
+    [ -s "run/$figure.svg" ] && [ -s "run/$figure.png" ] || fail "figure $figure is missing"
+  done
+  [ "$(grep -c '</svg>' run/report.html)" -ge 1 ] || fail 'the page shows no figure'
+fi
+grep -qE '(src|href)="(https?:|[a-z_]+\.(svg|png|css|js))' run/report.html && fail 'the page needs other files'
+
+# A second run takes the place of the first; without gnuplot there is a report all the same.
+mkdir empty_path
+PATH=$scratch/empty_path "$demo" --scene cavity --seconds 0.1 --out run >output.txt 2>error.txt
+code=$?
+[ "$code" -eq 0 ] || fail "without gnuplot: exit code $code: $(cat error.txt)"
+grep -q gnuplot output.txt || fail 'nothing says that gnuplot is missing'
+[ -s run/report.html ] || fail 'without gnuplot: no page'
+[ ! -e run/wrench.svg ] || fail 'a figure of the first run is still there'
+
+[ "$failures" -eq 0 ] || { echo "$failures failures"; exit 1; }
+echo 'the folder holds what it says'
