@@ -163,7 +163,7 @@ class HapticRenderer {
           }
           trust_ = std::min(Working(settings_.trust_radius), 2 * trust_);
         } else if (!admit(result)) {
-          trust_ = length / 4;
+          trust_ = length * std::max(result.time, Working(1) / 4);
         }
       }
       if (tick_.work >= settings_.work_budget || trust_ < resting) break;
