@@ -129,33 +129,39 @@ Passage<typename Tool::Scalar> pass(const MovingTool<Tool>& moving, const Passed
   using Plane = detail::HeldPlane<Scalar>;
   const Matrix3<Scalar>& corners = triangle.corners;
   ClosestFeatures warm = triangle.features;
-  const auto query = [&](const MotionFrame<Scalar>& frame) {
+  // Where shapes overlap only the sign matters, unless they touched from the start: then the least overlap decides.
+  const auto query = [&](const MotionFrame<Scalar>& frame, bool touches) {
     ++work;
-    const auto closest = separation(moving.tool(), moving.in_tool(corners, frame), warm, clearance.touching);
+    const Matrix3<Scalar> in_tool = moving.in_tool(corners, frame);
+    auto closest = gjk(moving.tool(), in_tool, warm, clearance.touching);
     warm = closest.features;
+    if (closest.is_touching) {
+      if (!touches) return Plane{Vector3<Scalar>::Zero(), -std::numeric_limits<Scalar>::infinity()};
+      closest = separation_of_touching(moving.tool(), in_tool, closest);
+    }
     return Plane{frame.rotation * closest.normal, closest.distance};
   };
-  Plane plane{triangle.normal, Scalar(0)};
+  const auto slack_at = [&](const Vector3<Scalar>& normal, const MotionFrame<Scalar>& frame) {
+    return moving.lowest(normal, frame) - detail::highest(corners, normal);
+  };
   const bool is_known = triangle.normal.squaredNorm() > Scalar(0);
-  if (is_known) {
-    plane.slack = moving.lowest(plane.normal, start) - detail::highest(corners, plane.normal);
-    const Scalar required = clearance.required(plane.slack);
-    if (!(detail::held_part(moving, corners, plane, start, end, required, true) < Scalar(1))) {
-      return {end.time, false, plane.normal};
-    }
+  Plane plane{triangle.normal, is_known ? slack_at(triangle.normal, start) : Scalar(0)};
+  bool touches = is_known && plane.slack < 2 * clearance.touching;
+  if (is_known && !(detail::held_part(moving, corners, plane, start, end, clearance.required(plane.slack), true) < Scalar(1))) {
+    return {end.time, false, plane.normal};
   }
-  const Plane last = query(end);
-  const Scalar last_at_start = moving.lowest(last.normal, start) - detail::highest(corners, last.normal);
-  {
-    const Scalar known = is_known ? std::max(plane.slack, last_at_start) : last_at_start;
+  Plane last = query(end, touches);
+  if (last.slack > -std::numeric_limits<Scalar>::infinity()) {
+    const Scalar known = std::max(slack_at(last.normal, start), is_known ? plane.slack : Scalar(0));
     const Scalar required = clearance.required(std::max(known, Scalar(0)));
     if (!(detail::held_part(moving, corners, last, end, start, required, false) < Scalar(1))) {
       return {end.time, false, last.normal};
     }
   }
-  if (!is_known || plane.slack < 2 * clearance.kept) {
-    const Plane first = query(start);
-    if (!is_known || first.slack > plane.slack) plane = first;
+  if (!is_known) {
+    plane = query(start, true);
+    touches = plane.slack < 2 * clearance.touching;
+    if (touches) last = query(end, true);
   }
   const Scalar required = clearance.required(plane.slack);
   if (detail::turning_plane_holds(moving, corners, plane, start, last, end, required)) return {end.time, false, last.normal};
@@ -176,7 +182,7 @@ Passage<typename Tool::Scalar> pass(const MovingTool<Tool>& moving, const Passed
     const bool is_short = advance * moving.length() < resolution;
     frame = moving.frame_at(frame.time + advance);
     if (is_short) break;
-    plane = query(frame);
+    plane = query(frame, true);
     if (detail::turning_plane_holds(moving, corners, plane, frame, last, end, required)) return {end.time, false, last.normal};
   }
   return {frame.time, true, plane.normal};
