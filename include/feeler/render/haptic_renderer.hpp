@@ -63,7 +63,6 @@ class HapticRenderer {
     clearance_.allowance = std::max(clearance_.allowance, rounding);
     clearance_.touching = touching_distance(radius_);
     clearance_.probe = Working(settings.trust_radius) / 4;
-    trust_ = Working(settings.trust_radius);
   }
   HapticRenderer(TriangleMesh<Scalar>&&, const Tool&, const Settings<Scalar>& = {}) = delete;
 
@@ -78,7 +77,7 @@ class HapticRenderer {
     tick_ = {};
     if (!pose.is_finite()) return tick_.status = Status::not_finite;
     pose_ = reference_pose(pose);
-    trust_ = Working(settings_.trust_radius);
+    reset_limits();
     int work = 0;
     const MovingTool moving(tool_, reference_, radius_, pose_, Twist<Working>{});
     const auto result = Sweep<WorkingTool>(planes_, clearance_).certify(object_, moving, {}, work, std::numeric_limits<int>::max());
@@ -105,7 +104,7 @@ class HapticRenderer {
     target_ = reference_pose(haptic_pose);
     const bool goes_on = tick_.status == Status::unconverged;
     working_set_.age(longest_idle, 4 * margin_, 4 * Working(settings_.trust_radius), goes_on);
-    if (!goes_on) trust_ = Working(settings_.trust_radius);
+    if (!goes_on) reset_limits();
     tick_.work = 0;
     tick_.status = follow() ? Status::converged : Status::unconverged;
     report();
@@ -135,6 +134,11 @@ class HapticRenderer {
     return {pose * reference_, pose.rotation};
   }
 
+  void reset_limits() noexcept {
+    trust_ = Working(settings_.trust_radius);
+    flight_ = std::numeric_limits<Working>::infinity();
+  }
+
   Working length_of(const Twist<Working>& motion) const noexcept {
     return motion.linear.norm() + radius_ * motion.angular.norm();
   }
@@ -153,7 +157,7 @@ class HapticRenderer {
       const MovingTool moving(tool_, reference_, radius_, pose_, proposal.motion);
       const auto result = certify(moving);
       if (result.is_exhausted) {
-        trust_ = length / 8;
+        (problem_.row_count() > 0 ? trust_ : flight_) = length / 8;
       } else {
         pose_ = result.time < Working(1) ? moving.pose_at(result.time) : moving.pose_at(Working(1));
         if (result.blockers.empty()) {
@@ -162,6 +166,7 @@ class HapticRenderer {
             return true;
           }
           trust_ = std::min(Working(settings_.trust_radius), 2 * trust_);
+          flight_ *= 2;
         } else if (!admit(result)) {
           trust_ = length * std::max(result.time, Working(1) / 4);
         }
@@ -184,12 +189,12 @@ class HapticRenderer {
       pose = moved(pose, Twist<Working>::from_vector(step));
       proposal.motion = motion_between(pose_, pose);
       const Working last = length_of(Twist<Working>::from_vector(step));
-      if (!proposal.is_capped) proposal.is_free = problem_.solution().active.empty();
+      if (!proposal.is_capped) proposal.is_free = problem_.is_free();
       const Working length = length_of(proposal.motion);
-      const bool is_limited = problem_.row_count() > 0 || trust_ < Working(settings_.trust_radius);
-      if (is_limited && length > trust_ && !proposal.is_capped) {
+      const Working limit = problem_.row_count() > 0 ? trust_ : flight_;
+      if (length > limit && !proposal.is_capped) {
         proposal.is_capped = true;
-        proposal.motion = proposal.motion * (trust_ / length);
+        proposal.motion = proposal.motion * (limit / length);
         pose = moved(pose_, proposal.motion);
         if (proposal.is_free) return proposal;
         continue;
@@ -308,7 +313,8 @@ class HapticRenderer {
   bool is_reset_ = false;
   Pose<Working> pose_;    // the certified pose of the reference point
   Pose<Working> target_;  // the haptic pose of the reference point
-  Working trust_;
+  Working trust_;         // longest motion proposed near the object
+  Working flight_;        // the same away from it, where only the work of the certificate limits it
   WorkingSet<Working> working_set_;
   PlaneCache<Working> planes_;
   StepProblem<Solver> problem_;

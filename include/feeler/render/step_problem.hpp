@@ -46,11 +46,17 @@ class StepProblem {
     problem_.hessian = metric.hessian({});
     problem_.gradient = metric.gradient(graphic_from_haptic);
     solve_relaxing(margin);
-    if (solution_.active.empty()) return solution_.step;
+    is_free_ = solution_.active.empty();
+    if (is_free_) return solution_.step;
+    projection_ = solution_;
     set_lagrangian_hessian(metric, graphic_from_haptic);
     solve_relaxing(margin);
+    // Without its rows the curvature they were given means nothing.
+    if (solution_.active.empty()) solution_ = projection_;
     return solution_.step;
   }
+  /// Whether no contact holds the tool: the last `solve` was not stopped by any row.
+  bool is_free() const noexcept { return is_free_; }
 
   /// The smallest step that meets the rows.
   const Vector6<Scalar>& restore(const Metric<Scalar>& metric, Scalar margin) noexcept {
@@ -142,6 +148,8 @@ class StepProblem {
   Solver solver_;
   QpProblem<Scalar> problem_;
   QpSolution<Scalar> solution_;
+  QpSolution<Scalar> projection_;
+  bool is_free_ = true;
   FixedVector<Row, row_capacity> rows_;
   std::array<Scalar, std::size_t(row_capacity)> certified_gaps_;
   std::array<bool, std::size_t(row_capacity)> is_relaxed_;
