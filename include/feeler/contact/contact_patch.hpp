@@ -56,7 +56,8 @@ class ContactPatch {
     if (near_count_ > 2) add_corners_on_faces(rows);
     const Scalar close_enough = closest.distance + std::abs(closest.distance) / 1000 + Scalar(1e-9);
     const bool is_met = std::any_of(rows.begin(), rows.end(), [&](const Row& row) { return row.gap <= close_enough; });
-    if (is_met) return true;
+    // Overlapping shapes have no closest points: the deepest vertex may lie beside the triangle, where nothing holds it.
+    if (is_met || (closest.is_touching && !rows.empty())) return true;
     if (!keep_ghost && !is_in_cone(closest)) return !rows.empty();
     if (rows.full()) rows.pop_back();
     rows.push_back(row_of(FeaturePair::vertex_face, normal_, closest.tool_point, closest.distance));

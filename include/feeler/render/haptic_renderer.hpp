@@ -93,6 +93,7 @@ class HapticRenderer {
   /// @cost  noexcept; no allocation, lock, clock or I/O; bounded by `Settings::maximum_iterations` and `work_budget`
   const Tick<Scalar>& update(const Pose<Scalar>& haptic_pose) noexcept {
     if (!haptic_pose.is_finite()) {
+      tick_.path.clear();
       tick_.status = Status::not_finite;
       return tick_;
     }
@@ -106,6 +107,7 @@ class HapticRenderer {
     working_set_.age(longest_idle, 4 * margin_, 4 * Working(settings_.trust_radius), goes_on);
     if (!goes_on) reset_limits();
     tick_.work = 0;
+    tick_.path.clear();
     tick_.status = follow() ? Status::converged : Status::unconverged;
     report();
     return tick_;
@@ -134,6 +136,11 @@ class HapticRenderer {
     return {pose * reference_, pose.rotation};
   }
 
+  Pose<Scalar> tool_pose(const Pose<Working>& pose) const noexcept {
+    const Pose<Working> tool{pose.translation - pose.rotation * reference_, pose.rotation};
+    return tool.template cast<Scalar>();
+  }
+
   void reset_limits() noexcept {
     trust_ = Working(settings_.trust_radius);
     flight_ = std::numeric_limits<Working>::infinity();
@@ -146,12 +153,12 @@ class HapticRenderer {
   /// Moves the graphic pose towards the target; true when it arrived at a local minimum.
   bool follow() noexcept {
     constexpr Working resting = Working(1e-11);
-    for (tick_.iterations = 0; tick_.iterations < settings_.maximum_iterations;) {
+    const int maximum_iterations = std::min(settings_.maximum_iterations, Tick<Scalar>::path_capacity);
+    for (tick_.iterations = 0; tick_.iterations < maximum_iterations;) {
       ++tick_.iterations;
       const Proposal proposal = propose();
       const Working length = length_of(proposal.motion);
       if (length <= resting) {
-        if (proposal.is_free && !proposal.is_capped) pose_ = target_;
         return !proposal.is_capped;
       }
       const MovingTool moving(tool_, reference_, radius_, pose_, proposal.motion);
@@ -159,12 +166,11 @@ class HapticRenderer {
       if (result.is_exhausted) {
         (problem_.row_count() > 0 ? trust_ : flight_) = length / 8;
       } else {
-        pose_ = result.time < Working(1) ? moving.pose_at(result.time) : moving.pose_at(Working(1));
+        const bool is_done = result.blockers.empty() && proposal.is_settled && !proposal.is_capped;
+        pose_ = is_done && proposal.is_free ? target_ : moving.pose_at(result.time);
+        if (result.time > Working(0)) tick_.path.push_back(tool_pose(pose_));
+        if (is_done) return true;
         if (result.blockers.empty()) {
-          if (proposal.is_settled && !proposal.is_capped) {
-            if (proposal.is_free) pose_ = target_;
-            return true;
-          }
           trust_ = std::min(Working(settings_.trust_radius), 2 * trust_);
           flight_ *= 2;
         } else if (!admit(result)) {
@@ -279,8 +285,7 @@ class HapticRenderer {
 
   /// Fills the tick from the certified pose and the last optimisation.
   void report() noexcept {
-    const Pose<Working> pose{pose_.translation - pose_.rotation * reference_, pose_.rotation};
-    tick_.graphic_pose = pose.template cast<Scalar>();
+    tick_.graphic_pose = tool_pose(pose_);
     const Stiffness<Working> stiffness{settings_.stiffness.translational.template cast<Working>(),
                                        settings_.stiffness.rotational.template cast<Working>()};
     tick_.wrench = stiffness.wrench(motion_between(target_, pose_)).template cast<Scalar>();

@@ -36,7 +36,7 @@ struct Settings {
   /// A step that moves no tool point farther than this ends a tick as converged [m].
   Scalar step_tolerance = Scalar(5e-6);
 
-  /// Linearisations a tick; when they are spent the rest of the motion is left for the next ticks.
+  /// Linearisations a tick, at most 32; when they are spent the rest of the motion is left for the next ticks.
   int maximum_iterations = 12;
 
   /// Work a tick, in units of one distance query between the tool and a triangle (about 0.5 µs for 32 vertices); when it is

@@ -25,12 +25,17 @@ struct ActiveContact {
 template <RealScalar ScalarType>
 struct Tick {
   using Scalar = ScalarType;
-  static constexpr int contact_capacity = 32;
+  static constexpr int contact_capacity = 8;
+  static constexpr int path_capacity = 32;
 
   Pose<Scalar> graphic_pose;
   Wrench<Scalar> wrench;  ///< on the hand, world axes, at the reference point of the haptic pose
   FixedVector<ActiveContact<Scalar>, contact_capacity> contacts;
   Status status = Status::not_reset;
+
+  /// The way from the last graphic pose to this one, which is its last pose: between poses the reference point moves on a straight line and
+  /// the axes turn at a constant rate, free of collision all along. Empty when the tool did not move.
+  FixedVector<Pose<Scalar>, path_capacity> path;
 
   int iterations = 0;  ///< linearisations solved
   int rows = 0;        ///< rows of the last optimisation
