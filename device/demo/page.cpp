@@ -73,7 +73,7 @@ std::string base64(const std::string& bytes) {
 std::string figure_html(const std::filesystem::path& folder, const Figure& figure) {
   constexpr std::size_t large = 2000000;
   std::string drawing = content_of(folder / (figure.name + ".svg"));
-  if (drawing.size() > large) {
+  if (drawing.empty() || drawing.size() > large) {
     return "<img alt=\"" + figure.name + "\" src=\"data:image/png;base64," +
            base64(content_of(folder / (figure.name + ".png"))) + "\">";
   }

@@ -77,24 +77,35 @@ constexpr const char* run_body =
     "  '' index 2 using 1:2:3:4:5:6 with vectors nohead lw 1.2 lc rgb '#26323c' notitle\n"
     "unset multiplot\n";
 
-/// Draws `body` twice: for the screen and for print.
-void write_script(const std::filesystem::path& file, const std::string& name, int width, int height,
-                  const std::string& settings, const char* body) {
-  TextFile text(file);
-  text.print("# gnuplot %s.gp draws this figure again from ticks.csv.\n", name.c_str());
+/// A figure as a script: its size on the screen in pixels, what its body needs, and whether it is light enough for a drawing.
+struct Script {
+  std::string name;
+  int width, height;
+  std::string settings;
+  const char* body;
+  bool has_drawing = true;
+};
+
+/// Draws the body for the screen, and at twice the size for print.
+void write_script(const std::filesystem::path& folder, const Script& script) {
+  const char* name = script.name.c_str();
+  TextFile text(folder / (script.name + ".gp"));
+  text.print("# gnuplot %s.gp draws this figure again from the files of this folder.\n", name);
   text.write(colours);
-  text.write(settings);
-  text.print("set terminal svg size %d,%d enhanced font 'sans-serif,13' name '%s' background rgb 'white'\n", width, height,
-             name.c_str());
-  text.print("set output '%s.svg'\n", name.c_str());
-  text.write(style);
-  text.write(body);
-  text.print("unset output\nreset\n");
+  text.write(script.settings);
+  if (script.has_drawing) {
+    text.print("set terminal svg size %d,%d enhanced font 'sans-serif,13' name '%s' background rgb 'white'\n", script.width,
+               script.height, name);
+    text.print("set output '%s.svg'\n", name);
+    text.write(style);
+    text.write(script.body);
+    text.print("unset output\nreset\n");
+  }
   text.print("set terminal pngcairo size %d,%d enhanced font 'DejaVu Sans,13' fontscale 2 linewidth 2 pointscale 2\n",
-             2 * width, 2 * height);
-  text.print("set output '%s.png'\n", name.c_str());
+             2 * script.width, 2 * script.height);
+  text.print("set output '%s.png'\n", name);
   text.write(style);
-  text.write(body);
+  text.write(script.body);
   text.print("unset output\n");
   text.close();
 }
@@ -148,9 +159,10 @@ std::vector<Figure> draw_figures(const std::filesystem::path& folder, const scen
       assignment("duration", duration) + assignment("every_tick", double(ticks.size() / 4000 + 1));
   const RunFigureData data(folder, scene, ticks);
 
-  write_script(folder / "wrench.gp", "wrench", 1000, 760, common + wrench_settings(ticks), wrench_body);
-  write_script(folder / "tick_time.gp", "tick_time", 1000, 420, common + time_settings(ticks, summary), time_body);
-  write_script(folder / "run.gp", "run", 1000, 700, run_settings(data), run_body);
+  constexpr std::size_t most_drawn_triangles = 6000;  // more make a drawing that browsers choke on
+  write_script(folder, {"wrench", 1000, 760, common + wrench_settings(ticks), wrench_body});
+  write_script(folder, {"tick_time", 1000, 420, common + time_settings(ticks, summary), time_body});
+  write_script(folder, {"run", 1000, 700, run_settings(data), run_body, data.drawn_triangles() <= most_drawn_triangles});
 
   std::vector<Figure> figures{
       {"run", "Way of the tool's tip [mm]: where the hand is in red, where the tool may be in grey; both tools at the peak force."},

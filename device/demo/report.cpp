@@ -116,6 +116,8 @@ ordered_json results_json(const Summary& s) {
             {"deepest_at_poses_tick", v.pose_tick},
             {"deepest_on_path_m", v.path_depth},
             {"deepest_on_path_tick", v.path_tick},
+            {"corner_share", Verification::corner_share},
+            {"crossings", v.crossings},
             {"checked_poses", v.checked_poses},
             {"checked_ways", v.checked_ways},
             {"samples_a_way", v.samples},

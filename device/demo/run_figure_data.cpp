@@ -15,7 +15,7 @@ using Vector = Vector3<double>;
 
 constexpr std::size_t most_triangles = 40000;
 constexpr std::size_t most_points = 4000;
-constexpr Eigen::Index few_triangles = 50000;
+constexpr Eigen::Index few_triangles = 30000;  // fewer are drawn whole, more only around the ways
 
 /// From the scene to the eye, unit.
 Vector to_eye() {

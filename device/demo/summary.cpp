@@ -101,7 +101,9 @@ std::vector<std::pair<std::string, std::string>> table_of(const Summary& s) {
        format("median %.0f, p99 %.0f, max %.0f", s.iterations.median, s.iterations.p99, s.iterations.maximum)},
       {"converged in contact", format("%.2f %%", 100.0 * s.converged_share)},
       {"deepest penetration, poses", depth_text(v.pose_depth, v.pose_tick)},
-      {"deepest penetration, path", depth_text(v.path_depth, v.path_tick)},
+      {"deepest penetration, path",
+       depth_text(v.path_depth, v.path_tick) +
+           (v.path_depth > Verification::tolerance && v.crossings == 0 ? ", a corner cut short by the straight way" : "")},
       {"checked", checked},
       {"largest pose step", format("%.3f mm, %.3f°", 1e3 * s.largest_translation, s.largest_rotation * 57.29577951308232)},
       {"largest wrench step", format("%.3f N, %.2f mN·m", s.largest_force_step, 1e3 * s.largest_torque_step)},

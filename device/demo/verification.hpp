@@ -15,14 +15,19 @@ struct Verification {
 
   double pose_depth = 0.0;       ///< deepest at a graphic pose [m]
   std::size_t pose_tick = 0;     ///< where that was
-  double path_depth = 0.0;       ///< deepest on the way from one graphic pose to the next [m]
+  double path_depth = 0.0;       ///< deepest on the straight way from one graphic pose to the next [m]
   std::size_t path_tick = 0;     ///< the tick at the end of that way
+  std::size_t crossings = 0;     ///< ways too deep to be a corner cut short
   std::size_t checked_poses = 0;
   std::size_t checked_ways = 0;  ///< each at `samples` places between its ends
   int samples = 3;
   std::size_t stride = 1;        ///< every how manieth tick was checked
 
-  bool penetrated() const { return pose_depth > tolerance || path_depth > tolerance; }
+  /// The tool goes around a corner in several certified steps a tick; the straight way cuts it short. It may be as deep as this share of
+  /// the motion of the tool in that tick; deeper, the tool went through.
+  static constexpr double corner_share = 0.25;
+
+  bool penetrated() const { return pose_depth > tolerance || crossings > 0; }
 };
 
 /// Whether the checker finds the tool free at a pose, to the tolerance.
