@@ -13,8 +13,8 @@ namespace feeler {
 ServoLoop::ServoLoop(const ServoSettings& settings, Callback callback, Clock* clock)
     : settings_(settings), callback_(std::move(callback)), clock_(clock ? *clock : monotonic_clock_) {
   if (!callback_) refuse("servo loop: the callback is empty; give a callable from a ServoTick to whether to go on");
-  if (!(settings.rate >= 0) || settings.rate > 1e9) {
-    refuse("servo loop: the rate must be from 0 (as fast as possible) to 1e9 ticks a second");
+  if (settings.rate != 0 && !(settings.rate >= 1e-3 && settings.rate <= 1e9)) {
+    refuse("servo loop: the rate must be 0 (as fast as possible) or from 0.001 to 1e9 ticks a second");
   }
   if (settings.rate > 0) report_.period = std::llround(1e9 / settings.rate);
 }

@@ -15,10 +15,9 @@ double grip_damping(double stiffness, double inertia, double ratio) noexcept {
   return 2 * ratio * std::sqrt(stiffness * inertia);
 }
 
-/// Semi-implicit Euler of m a = −k x − c v is stable just when c h/m < 2 and k h²/m < 4 − 2 c h/m (Jury's criterion).
+/// Semi-implicit Euler of m a = −k x − c v is stable just when k h²/m < 4 − 2 c h/m (Jury's criterion).
 bool is_stable(double inertia, double stiffness, double damping, double step) noexcept {
-  const double damped = damping * step / inertia;
-  return damped < 2 && stiffness * step * step / inertia < 4 - 2 * damped;
+  return stiffness * step * step / inertia < 4 - 2 * damping * step / inertia;
 }
 
 void require(bool holds, const char* sentence) {
@@ -58,9 +57,10 @@ double SimulatedHand::time() const noexcept { return double(ticks_) * period_; }
 // Flattened, here and in the encoder: a function of Eigen types left out of line would be merged by the linker with the user's own,
 // compiled with other vector widths.
 [[gnu::flatten]] DevicePose SimulatedHand::target(double time) const noexcept {
-  const auto steady = from_device<Pose<double>>(path_(time)).normalized();
+  const auto steady = from_device<Pose<double>>(path_(time));
+  if (!steady.is_finite()) return target_;
   const auto shake = tremor_.at(time);
-  return to_device_pose(moved(steady, {{shake[0], shake[1], shake[2]}, {shake[3], shake[4], shake[5]}}));
+  return to_device_pose(moved(steady.normalized(), {{shake[0], shake[1], shake[2]}, {shake[3], shake[4], shake[5]}}));
 }
 
 [[gnu::flatten]] void SimulatedHand::advance(const DeviceWrench& wrench) noexcept {

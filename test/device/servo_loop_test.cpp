@@ -97,6 +97,13 @@ BOOST_AUTO_TEST_CASE(every_deadline_that_passes_during_a_tick_is_skipped_and_cou
   BOOST_TEST(report.wake_up_latency.maximum() == 0);  // never caught up: each tick waited for its own deadline
 }
 
+BOOST_AUTO_TEST_CASE(a_tick_that_ends_on_a_later_deadline_is_on_time_for_that_one) {
+  feeler::ServoReport report;
+  const auto told = run_script({3 * millisecond, 0}, report);
+  BOOST_TEST(report.missed == 2);
+  BOOST_TEST(told[1].time == 3e-3, boost::test_tools::tolerance(1e-12));
+}
+
 BOOST_AUTO_TEST_CASE(late_wake_ups_are_latency_and_miss_only_the_deadlines_they_pass) {
   feeler::ServoReport report;
   run_script({0, 0, 0}, report, 300'000);
@@ -154,7 +161,7 @@ BOOST_AUTO_TEST_CASE(a_callback_that_throws_ends_it_with_a_sentence) {
 BOOST_AUTO_TEST_CASE(what_it_cannot_run_is_refused) {
   const auto nothing = [](const ServoTick&) { return true; };
   BOOST_CHECK_THROW(ServoLoop({}, nullptr), std::invalid_argument);
-  for (const double rate : {-1.0, 2e9, std::numeric_limits<double>::quiet_NaN()}) {
+  for (const double rate : {-1.0, 1e-12, 2e9, std::numeric_limits<double>::quiet_NaN()}) {
     BOOST_CHECK_THROW(ServoLoop(quiet(rate, 1), nothing), std::invalid_argument);
   }
   ServoLoop loop(quiet(0, 1), nothing);

@@ -113,6 +113,16 @@ BOOST_AUTO_TEST_CASE(a_steady_turn_keeps_the_quaternion_a_unit_one) {
   BOOST_TEST(behind == 2e-4 * 2 / 0.5, boost::test_tools::tolerance(1e-6));
 }
 
+BOOST_AUTO_TEST_CASE(a_path_that_is_not_finite_leaves_the_hand_where_it_last_wanted_to_be) {
+  const double bad = std::nan("");
+  for (const DevicePose& nonsense : {DevicePose{{bad, 0, 0}, {1, 0, 0, 0}}, DevicePose{{9, 9, 9}, {0, 0, 0, 0}}}) {
+    SimulatedHand hand([&](double t) { return t > 0.1 ? nonsense : DevicePose{{0.02, 0, 0}, {1, 0, 0, 0}}; });
+    run(hand, {}, 1.0);
+    BOOST_TEST(hand.pose().position[0] == 0.02, boost::test_tools::tolerance(1e-9));
+    BOOST_TEST(hand.pose().orientation[0] == 1.0, boost::test_tools::tolerance(1e-9));
+  }
+}
+
 BOOST_AUTO_TEST_CASE(what_cannot_be_integrated_is_refused) {
   Grip stiff;
   stiff.stiffness = 1e8;

@@ -250,7 +250,7 @@ inline Penetration deepest_penetration(const CheckedObject& object, const Checke
     for (const WideVector& v : tool.vertices)
       bottom = std::min(bottom, heights(v)), top = std::max(top, heights(v));
     const WideReal slack =
-        4 * std::numeric_limits<double>::epsilon() * std::max(std::abs(bottom), std::abs(top));
+        WideReal(4 * std::numeric_limits<double>::epsilon()) * std::max(std::abs(bottom), std::abs(top));
     tool_bounds.min()[k] = static_cast<double>(bottom - slack);
     tool_bounds.max()[k] = static_cast<double>(top + slack);
   }

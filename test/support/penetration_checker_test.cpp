@@ -34,11 +34,13 @@ CheckedObject plane() {
   return {vertices, triangles};
 }
 
-/// The box |x| ≤ h.x, |y| ≤ h.y, |z| ≤ h.z.
-CheckedTool box(const Vector3d& h) {
+/// The box |x| ≤ h.x, |y| ≤ h.y, |z| ≤ h.z, turned in its own frame.
+CheckedTool box(const Vector3d& h, const Quaterniond& turn = Quaterniond::Identity()) {
   Vertices vertices(8, 3);
-  for (int i = 0; i < 8; ++i)
-    vertices.row(i) << (i & 1 ? h.x() : -h.x()), (i & 2 ? h.y() : -h.y()), (i & 4 ? h.z() : -h.z());
+  for (int i = 0; i < 8; ++i) {
+    const Vector3d corner(i & 1 ? h.x() : -h.x(), i & 2 ? h.y() : -h.y(), i & 4 ? h.z() : -h.z());
+    vertices.row(i) = turn * corner;
+  }
   return {vertices,
           {{0, 1}, {2, 3}, {4, 5}, {6, 7}, {0, 2}, {1, 3}, {4, 6}, {5, 7}, {0, 4}, {1, 5}, {2, 6}, {3, 7}},
           {{0, 2, 3, 1}, {4, 5, 7, 6}, {0, 1, 5, 4}, {2, 6, 7, 3}, {0, 4, 6, 2}, {1, 3, 7, 5}}};
@@ -75,7 +77,7 @@ BOOST_AUTO_TEST_CASE(cube_in_a_plane_is_as_deep_as_it_is_pushed) {
   const CheckedTool cube = box(Vector3d::Constant(0.5));
   for (const double depth : depths) {
     const Penetration p = deepest_penetration(plane(), cube, shifted(0.25, -0.125, 0.5 - depth));
-    BOOST_TEST(std::abs(double(p.depth - depth)) < 1e-16);  // 0.5 − depth is rounded
+    BOOST_TEST(std::abs(double(p.depth) - depth) < 1e-16);  // 0.5 − depth is rounded
     BOOST_TEST(p.triangle >= 0);
     BOOST_TEST(std::abs(depth_of(plane(), cube, shifted(0, 0, -0.5 + depth)) - depth) < 1e-16);  // from below
   }
@@ -87,6 +89,15 @@ BOOST_AUTO_TEST_CASE(corner_in_a_face_is_as_deep_as_its_tip) {
   for (const double depth : depths) {
     const CheckedPose pose(Vector3d(1, -2, std::sqrt(0.75) - depth), on_its_corner);
     BOOST_TEST(std::abs(depth_of(plane(), cube, pose) - depth) < 5e-16);
+  }
+}
+
+BOOST_AUTO_TEST_CASE(corner_of_the_object_is_as_deep_as_it_pierces_a_face_of_the_tool) {
+  const Quaterniond turn = Quaterniond(1, 2, 3, 4).normalized();
+  const CheckedTool cube = box(Vector3d::Constant(0.5), turn);
+  for (const double depth : depths) {
+    const CheckedObject spike = triangle({0.1, 0.1, 0.5 - depth}, {1, 0.25, 3}, {-0.25, 1, 2});
+    BOOST_TEST(std::abs(depth_of(spike, cube, {Vector3d::Zero(), turn.conjugate()}) - depth) < 5e-16);
   }
 }
 
@@ -166,11 +177,11 @@ BOOST_AUTO_TEST_CASE(depth_is_the_best_separation_over_all_directions) {
     for (int k = 0; k < 3; ++k)
       corners.col(k) = random_vector(bits), y[std::size_t(k)] = corners.col(k).cast<WideReal>();
     const double depth = depth_of(triangle(corners.col(0), corners.col(1), corners.col(2)), tool, at_rest);
-    WideReal best = -1e9;
+    WideReal best = -1e9L;
     WideVector best_direction = WideVector::UnitX();
     const auto consider = [&](const Vector3d& direction) {
       const WideVector n = direction.cast<WideReal>().normalized();
-      WideReal low = 1e9, high = -1e9;
+      WideReal low = 1e9L, high = -1e9L;
       for (const WideVector& v : tool.vertices) low = std::min(low, n.dot(v));
       for (const WideVector& corner : y) high = std::max(high, n.dot(corner));
       if (low - high > best) best = low - high, best_direction = n;
@@ -211,16 +222,20 @@ BOOST_AUTO_TEST_CASE(degenerate_triangles_are_segments_and_points) {
 BOOST_AUTO_TEST_CASE(nearly_parallel_edges_are_no_blind_spot_and_no_false_alarm) {
   // A knife edge along x over a bar that is turned by the angle: apart by the gap, or overlapping by as much.
   const CheckedObject wall = triangle({-2, 0, 0}, {2, 0, 0}, {0, 0, -2});
-  const CheckedTool bar = box(Vector3d(0.5, 0.5, 0.5));
-  for (const double angle : {1e-3, 1e-8, 1e-12, 1e-16, 0.0})
-    for (const double gap : {1e-9, -1e-9}) {
-      const Quaterniond on_its_edge(Eigen::AngleAxisd(angle, Vector3d::UnitZ()) *
-                                    Eigen::AngleAxisd(std::acos(0.0) / 2, Vector3d::UnitX()));
-      const double depth = depth_of(wall, bar, {Vector3d(0, 0, std::sqrt(0.5) + gap), on_its_edge});
-      // Out it goes upwards, or along a face of the bar, past the ends of its edge.
-      const double expected = std::min(-gap, std::sqrt(0.5) * (-gap + 0.5 * std::sin(angle)));
-      BOOST_TEST(std::abs(depth - std::max(0.0, expected)) < 5e-16);
-    }
+  std::mt19937 bits(4);
+  for (int i = 0; i < 20; ++i) {
+    const Quaterniond turn = random_rotation(bits);  // so that no product is exact
+    const CheckedTool bar = box(Vector3d::Constant(0.5), turn);
+    for (const double angle : {1e-3, 1e-8, 1e-12, 1e-16, 0.0})
+      for (const double gap : {1e-9, -1e-9}) {
+        const Quaterniond on_its_edge(Eigen::AngleAxisd(angle, Vector3d::UnitZ()) *
+                                      Eigen::AngleAxisd(std::acos(0.0) / 2, Vector3d::UnitX()));
+        const CheckedPose pose(Vector3d(0, 0, std::sqrt(0.5) + gap), on_its_edge * turn.conjugate());
+        // Out it goes upwards, or along a face of the bar, past the ends of its edge.
+        const double depth = std::min(-gap, std::sqrt(0.5) * (-gap + 0.5 * std::sin(angle)));
+        BOOST_TEST(std::abs(depth_of(wall, bar, pose) - std::max(0.0, depth)) < 1e-15);
+      }
+  }
 }
 
 BOOST_AUTO_TEST_CASE(path_finds_the_thin_plate_that_both_ends_miss) {

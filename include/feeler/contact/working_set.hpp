@@ -56,11 +56,12 @@ class WorkingSet {
     pairs_.push_back(pair);
   }
 
-  /// Counts a tick, and drops what has been idle for `longest` ticks or lies more than `reach` away [m].
-  void age(int longest, Scalar reach, bool keep_ghosts) noexcept {
+  /// Counts a tick, and drops what has been idle for `longest` ticks or lies more than `reach` away [m]; what lies closer than `touch`
+  /// is not idle.
+  void age(int longest, Scalar touch, Scalar reach, bool keep_ghosts) noexcept {
     for (int i = pairs_.size() - 1; i >= 0; --i) {
       Pair& pair = pairs_[i];
-      ++pair.idle_ticks;
+      pair.idle_ticks = pair.slack < touch ? 1 : pair.idle_ticks + 1;
       if (!keep_ghosts) pair.keeps_ghost = false;
       if (pair.idle_ticks > longest || (pair.idle_ticks > 1 && pair.slack > reach)) pairs_.swap_remove(i);
     }

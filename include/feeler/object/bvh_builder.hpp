@@ -15,7 +15,8 @@ namespace feeler {
 struct BvhNode {
   float lower[3];
   float upper[3];
-  std::int32_t first;  ///< inner: the children are the nodes first and first + 1; leaf: position in the triangle order
+  std::int32_t
+      first;  ///< inner: the children are the nodes first and first + 1; leaf: position in the triangle order
   std::int32_t count;  ///< inner: 0; leaf: the number of triangles
 
   bool is_leaf() const noexcept { return count != 0; }
@@ -31,16 +32,18 @@ struct BvhItem {
 
 /// Binned top-down builder (Wald, "On fast construction of SAH-based bounding volume hierarchies", 2007).
 ///
-/// Splits at the best of 15 planes on each axis. Where no plane separates the centres, and where the depth bound comes near, it halves the
-/// list instead. Leaves hold up to `max_leaf_size` items.
+/// Splits at the best of 15 planes on each axis. Where no plane separates the centres, and where the depth
+/// bound comes near, it halves the list instead. Leaves hold up to `max_leaf_size` items.
 /// @cost  O(n log n); 28 bytes of scratch per item, which the caller brings
 class BvhBuilder {
  public:
   static constexpr int max_leaf_size = 4;
   static constexpr int max_depth = 64;  ///< nodes on a path from the root to a leaf
 
-  /// @param items  at least one; reordered so that leaf items are `items[first..first+count)`
-  explicit BvhBuilder(std::vector<BvhItem>& items) : items_(items) {
+  /// @param items        at least one; reordered so that leaf items are `items[first..first+count)`
+  /// @param depth_limit  nodes on a path; kept unless halving the list alone needs more
+  explicit BvhBuilder(std::vector<BvhItem>& items, int depth_limit = max_depth)
+      : items_(items), depth_limit_(depth_limit) {
     nodes_.reserve(items.size());
     nodes_.push_back({});
     std::vector<Task> tasks{{0, 0, std::int32_t(items.size()), 1}};
@@ -97,7 +100,9 @@ class BvhBuilder {
   static constexpr float infinity = std::numeric_limits<float>::infinity();
 
   /// Twice the centre of an item; the factor does not matter to a split.
-  static float centre(const BvhItem& item, std::size_t axis) noexcept { return item.lower[axis] + item.upper[axis]; }
+  static float centre(const BvhItem& item, std::size_t axis) noexcept {
+    return item.lower[axis] + item.upper[axis];
+  }
 
   /// Writes the box of a node, and returns the box of the centres in it.
   Box enclose(const Task& task) noexcept {
@@ -123,14 +128,15 @@ class BvhBuilder {
     for (std::size_t k = 1; k < 3; ++k)
       if (centres.upper[k] - centres.lower[k] > centres.upper[axis] - centres.lower[axis]) axis = k;
     const bool is_spread = centres.upper[axis] > centres.lower[axis];
-    if (is_spread && task.depth + levels_to_halve < max_depth) {
+    if (is_spread && task.depth + levels_to_halve < depth_limit_) {
       const std::int32_t middle = split_at_best_plane(task, centres);
       if (middle > task.begin && middle < task.end) return middle;
     }
     const std::int32_t middle = task.begin + count / 2;
     if (is_spread)
-      std::nth_element(items_.begin() + task.begin, items_.begin() + middle, items_.begin() + task.end,
-                       [axis](const BvhItem& a, const BvhItem& b) { return centre(a, axis) < centre(b, axis); });
+      std::nth_element(
+          items_.begin() + task.begin, items_.begin() + middle, items_.begin() + task.end,
+          [axis](const BvhItem& a, const BvhItem& b) { return centre(a, axis) < centre(b, axis); });
     return middle;
   }
 
@@ -173,10 +179,9 @@ class BvhBuilder {
       }
     }
     if (best_bin == 0) return task.begin;
-    const auto middle =
-        std::partition(items_.begin() + task.begin, items_.begin() + task.end, [&](const BvhItem& item) {
-          return bin_of(item, best_axis, centres, scale) < best_bin;
-        });
+    const auto middle = std::partition(
+        items_.begin() + task.begin, items_.begin() + task.end,
+        [&](const BvhItem& item) { return bin_of(item, best_axis, centres, scale) < best_bin; });
     return std::int32_t(middle - items_.begin());
   }
 
@@ -187,6 +192,7 @@ class BvhBuilder {
   }
 
   std::vector<BvhItem>& items_;
+  int depth_limit_;
   std::vector<BvhNode> nodes_;
 };
 

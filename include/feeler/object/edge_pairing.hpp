@@ -16,10 +16,11 @@ namespace feeler::detail {
 inline constexpr std::int32_t boundary_neighbour = -1;
 inline constexpr std::int32_t non_manifold_neighbour = -2;
 
-/// Pairs the edges of triangles, in linear time: edges are counted into buckets by their smaller vertex, and matched inside a bucket.
+/// Pairs the edges of triangles, in linear time: edges are counted into buckets by their smaller vertex, and
+/// matched inside a bucket.
 ///
-/// Edge k of a triangle goes from corner k to corner (k+1)%3. A triangle with a repeated corner joins nothing: its edges are boundary
-/// and are not counted, though they join vertices.
+/// Edge k of a triangle goes from corner k to corner (k+1)%3. A triangle with a repeated corner joins
+/// nothing: its edges are boundary and are not counted, though they join vertices.
 class EdgePairing {
  public:
   std::vector<std::int32_t> neighbours;              // 3 a triangle
@@ -44,7 +45,9 @@ class EdgePairing {
   static bool has_repeated_corner(const std::array<int, 3>& t) noexcept {
     return t[0] == t[1] || t[1] == t[2] || t[2] == t[0];
   }
-  int start_of(std::int32_t slot) const noexcept { return triangles_[std::size_t(slot / 3)][std::size_t(slot % 3)]; }
+  int start_of(std::int32_t slot) const noexcept {
+    return triangles_[std::size_t(slot / 3)][std::size_t(slot % 3)];
+  }
   int end_of(std::int32_t slot) const noexcept {
     return triangles_[std::size_t(slot / 3)][std::size_t((slot % 3 + 1) % 3)];
   }
@@ -64,7 +67,8 @@ class EdgePairing {
     std::vector<std::pair<int, int>> joined;
     joined.reserve(neighbours.size() / 2 + 8);
     for (int v = 0; v < vertex_count; ++v) {
-      const auto first = edges.begin() + begin[std::size_t(v)], last = edges.begin() + begin[std::size_t(v) + 1];
+      const auto first = edges.begin() + begin[std::size_t(v)],
+                 last = edges.begin() + begin[std::size_t(v) + 1];
       std::sort(first, last, [](const Edge& a, const Edge& b) {
         return a.larger != b.larger ? a.larger < b.larger : a.slot < b.slot;
       });
@@ -109,7 +113,8 @@ class EdgePairing {
       ++vertex_neighbour_begin[std::size_t(a) + 1];
       ++vertex_neighbour_begin[std::size_t(b) + 1];
     }
-    std::partial_sum(vertex_neighbour_begin.begin(), vertex_neighbour_begin.end(), vertex_neighbour_begin.begin());
+    std::partial_sum(vertex_neighbour_begin.begin(), vertex_neighbour_begin.end(),
+                     vertex_neighbour_begin.begin());
     vertex_neighbours.resize(joined.size() * 2);
     std::vector<std::int32_t> next = vertex_neighbour_begin;
     for (const auto& [a, b] : joined) {
@@ -118,7 +123,8 @@ class EdgePairing {
     }
   }
 
-  /// Corners at a vertex that are joined by manifold edges form a fan; a vertex with two fans is not manifold.
+  /// Corners at a vertex that are joined by manifold edges form a fan; a vertex with two fans is not
+  /// manifold.
   void count_non_manifold_vertices(int vertex_count, MeshReport& report) const {
     std::vector<std::int32_t> parent(neighbours.size());  // union-find over corners
     std::iota(parent.begin(), parent.end(), 0);
@@ -158,7 +164,8 @@ class EdgePairing {
       rest[std::size_t(next[std::size_t(t[0])]++)] = {t[1], t[2]};
     }
     for (int v = 0; v < vertex_count; ++v) {
-      const auto first = rest.begin() + begin[std::size_t(v)], last = rest.begin() + begin[std::size_t(v) + 1];
+      const auto first = rest.begin() + begin[std::size_t(v)],
+                 last = rest.begin() + begin[std::size_t(v) + 1];
       std::sort(first, last);
       for (auto i = first; i != last && i + 1 != last; ++i)
         if (*i == *(i + 1)) ++report.duplicate_triangles;

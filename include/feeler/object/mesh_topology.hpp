@@ -27,13 +27,16 @@ enum class Convexity : std::uint8_t {
   non_manifold,  ///< three triangles or more share the edge
 };
 
-/// Neighbours and convexities of the edges and vertices of a mesh. Knows indices only, so a copied mesh copies it as it is.
+/// Neighbours and convexities of the edges and vertices of a mesh. Knows indices only, so a copied mesh
+/// copies it as it is.
 ///
-/// Edge k of a triangle goes from its corner k to its corner (k+1)%3. All calls are noexcept, allocate nothing and cost a look-up.
+/// Edge k of a triangle goes from its corner k to its corner (k+1)%3. All calls are noexcept, allocate
+/// nothing and cost a look-up.
 class MeshTopology {
  public:
-  static constexpr int boundary = detail::boundary_neighbour;          ///< no triangle is across the edge
-  static constexpr int non_manifold = detail::non_manifold_neighbour;  ///< two triangles or more are across the edge
+  static constexpr int boundary = detail::boundary_neighbour;  ///< no triangle is across the edge
+  static constexpr int non_manifold =
+      detail::non_manifold_neighbour;  ///< two triangles or more are across the edge
 
   MeshTopology() = default;
   /// @param report  receives the counts of edges, duplicates and non-manifold vertices
@@ -58,7 +61,8 @@ class MeshTopology {
   Convexity edge_convexity(int triangle, int k) const noexcept {
     return edge_convexity_[std::size_t(3 * triangle + k)];
   }
-  /// `convex` or `concave` if all of the vertex's edges that are not flat are so; `boundary` if one has not exactly two triangles.
+  /// `convex` or `concave` if all of the vertex's edges that are not flat are so; `boundary` if one has not
+  /// exactly two triangles.
   Convexity vertex_convexity(int vertex) const noexcept { return vertex_convexity_[std::size_t(vertex)]; }
   /// The vertices that share an edge with a vertex, each once.
   std::span<const int> vertex_neighbours(int vertex) const noexcept {
@@ -70,17 +74,21 @@ class MeshTopology {
  private:
   template <RealScalar Scalar>
   Convexity convexity_of(const std::vector<Vector3<Scalar>>& vertices,
-                         const std::vector<std::array<int, 3>>& triangles, int triangle, int k) const noexcept {
+                         const std::vector<std::array<int, 3>>& triangles, int triangle,
+                         int k) const noexcept {
     using Working = WorkingScalar<Scalar>;
     const int other = neighbour(triangle, k);
     if (other == boundary) return Convexity::boundary;
     if (other == non_manifold) return Convexity::non_manifold;
     const auto& corners = triangles[std::size_t(triangle)];
-    const int a = corners[std::size_t(k)], b = corners[std::size_t((k + 1) % 3)], c = corners[std::size_t((k + 2) % 3)];
+    const int a = corners[std::size_t(k)], b = corners[std::size_t((k + 1) % 3)],
+              c = corners[std::size_t((k + 2) % 3)];
     int d = b;
     for (const int corner : triangles[std::size_t(other)])
       if (corner != a && corner != b) d = corner;
-    const auto at = [&vertices](int v) { return Vector3<Working>(vertices[std::size_t(v)].template cast<Working>()); };
+    const auto at = [&vertices](int v) {
+      return Vector3<Working>(vertices[std::size_t(v)].template cast<Working>());
+    };
     const Vector3<Working> along = (at(b) - at(a)).normalized();
     // From the edge into either triangle, perpendicular to the edge.
     const auto inward = [&](int v) {
@@ -99,7 +107,8 @@ class MeshTopology {
     const Working sine = normal.dot(across) / across_height;
     if (sine > tolerance) return Convexity::concave;
     if (sine < -tolerance) return Convexity::convex;
-    return own.dot(across) > Working(0) ? Convexity::convex : Convexity::flat;  // folded back on itself: a knife edge
+    return own.dot(across) > Working(0) ? Convexity::convex
+                                        : Convexity::flat;  // folded back on itself: a knife edge
   }
 
   void summarise_vertices(int vertex_count, const std::vector<std::array<int, 3>>& triangles) {

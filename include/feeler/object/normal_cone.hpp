@@ -8,12 +8,14 @@
 
 namespace feeler {
 
-/// More edges than this at a vertex are not looked at in a tick: the cone then counts as containing every direction.
+/// More edges than this at a vertex are not looked at in a tick: the cone then counts as containing every
+/// direction.
 inline constexpr int max_cone_valence = 64;
 
 namespace detail {
 
-/// direction · b ≤ tolerance for the unit vector b from an edge into a triangle, perpendicular to the edge; true if there is no such vector.
+/// direction · b ≤ tolerance for the unit vector b from an edge into a triangle, perpendicular to the edge;
+/// true if there is no such vector.
 template <RealScalar Scalar>
 bool points_away(const Vector3<Scalar>& start, const Vector3<Scalar>& end, const Vector3<Scalar>& opposite,
                  const Vector3<Scalar>& direction, const Scalar& tolerance) noexcept {
@@ -27,21 +29,23 @@ bool points_away(const Vector3<Scalar>& start, const Vector3<Scalar>& end, const
 
 }  // namespace detail
 
-/// Whether a point just off an edge in a direction has its closest mesh point on that edge: the normal cone of the edge.
+/// Whether a point just off an edge in a direction has its closest mesh point on that edge: the normal cone
+/// of the edge.
 ///
-/// True iff the direction points into neither of the edge's triangles. On a boundary, and where triangles of an edge are more than two,
-/// the triangle given is tested alone.
+/// True iff the direction points into neither of the edge's triangles. On a boundary, and where triangles of
+/// an edge are more than two, the triangle given is tested alone.
 /// @param k          edge of the triangle, from corner k to corner (k+1)%3
 /// @param direction  unit vector, world axes, from the mesh to the tool
 /// @param tolerance  sine by which the direction may leave the cone
 /// @cost  noexcept, no allocation
 template <RealScalar Scalar>
-bool edge_cone_contains(const TriangleMesh<Scalar>& mesh, int triangle, int k, const Vector3<Scalar>& direction,
-                        const Scalar& tolerance) noexcept {
+bool edge_cone_contains(const TriangleMesh<Scalar>& mesh, int triangle, int k,
+                        const Vector3<Scalar>& direction, const Scalar& tolerance) noexcept {
   const std::array<int, 3>& corners = mesh.triangle(triangle);
   const int start = corners[std::size_t(k)], end = corners[std::size_t((k + 1) % 3)];
   const auto is_away = [&](int opposite) {
-    return detail::points_away<Scalar>(mesh.vertex(start), mesh.vertex(end), mesh.vertex(opposite), direction, tolerance);
+    return detail::points_away<Scalar>(mesh.vertex(start), mesh.vertex(end), mesh.vertex(opposite), direction,
+                                       tolerance);
   };
   if (!is_away(corners[std::size_t((k + 2) % 3)])) return false;
   const int neighbour = mesh.topology().neighbour(triangle, k);
@@ -51,9 +55,11 @@ bool edge_cone_contains(const TriangleMesh<Scalar>& mesh, int triangle, int k, c
   return true;
 }
 
-/// Whether a point just off a vertex in a direction has its closest mesh point in that vertex: the normal cone of the vertex.
+/// Whether a point just off a vertex in a direction has its closest mesh point in that vertex: the normal
+/// cone of the vertex.
 ///
-/// True iff the direction points along none of the vertex's edges; always true with more than `max_cone_valence` of them.
+/// True iff the direction points along none of the vertex's edges; always true with more than
+/// `max_cone_valence` of them.
 /// @param direction  unit vector, world axes, from the mesh to the tool
 /// @param tolerance  sine by which the direction may leave the cone
 /// @cost  noexcept, no allocation, at most `max_cone_valence` dot products and square roots

@@ -17,10 +17,12 @@
 
 namespace feeler {
 
-/// An immutable set of triangles in world axes [m]. It need not be closed, consistent or manifold; `report()` says what it is.
+/// An immutable set of triangles in world axes [m]. It need not be closed, consistent or manifold; `report()`
+/// says what it is.
 ///
-/// Triangle i is row i of the input, also where it is degenerate or a duplicate: all are obstacles. Vertices at equal positions are
-/// welded, and those of no triangle are left out, so vertex numbers differ from the input's. Copies are independent.
+/// Triangle i is row i of the input, also where it is degenerate or a duplicate: all are obstacles. Vertices
+/// at equal positions are welded, and those of no triangle are left out, so vertex numbers differ from the
+/// input's. Copies are independent.
 template <RealScalar Scalar_>
 class TriangleMesh {
  public:
@@ -31,7 +33,8 @@ class TriangleMesh {
   /// @param triangles  m×3, indices into `vertices`, counter-clockwise seen from outside
   /// @cost  O(m log m), allocates; about a second for a million triangles
   TriangleMesh(const Points<Scalar>& vertices, const Triangles& triangles) {
-    if (triangles.rows() == 0) refuse("TriangleMesh: there are no triangles; give at least one row of three indices");
+    if (triangles.rows() == 0)
+      refuse("TriangleMesh: there are no triangles; give at least one row of three indices");
     for (Eigen::Index i = 0; i < vertices.rows(); ++i)
       if (!vertices.row(i).allFinite())
         refuse("TriangleMesh: vertex " + std::to_string(i) +
@@ -39,8 +42,8 @@ class TriangleMesh {
     for (Eigen::Index i = 0; i < triangles.rows(); ++i)
       for (int k = 0; k < 3; ++k)
         if (triangles(i, k) < 0 || triangles(i, k) >= vertices.rows())
-          refuse("TriangleMesh: triangle " + std::to_string(i) + " has the index " + std::to_string(triangles(i, k)) +
-                 ", but there are " + std::to_string(vertices.rows()) +
+          refuse("TriangleMesh: triangle " + std::to_string(i) + " has the index " +
+                 std::to_string(triangles(i, k)) + ", but there are " + std::to_string(vertices.rows()) +
                  " vertices; indices start at 0 and must be less than that");
     weld(vertices, triangles);
     for (const Vector3<Scalar>& v : vertices_) bounds_.extend(v);

@@ -13,10 +13,12 @@ namespace feeler {
 
 /// Unit normal by the right-hand rule over the corners a, b, c; zero if the area is zero to rounding.
 ///
-/// Uses the two shorter sides, whose cross product loses least, scaled so that neither tiny nor huge triangles under- or overflow.
+/// Uses the two shorter sides, whose cross product loses least, scaled so that neither tiny nor huge
+/// triangles under- or overflow.
 /// @cost  noexcept, no allocation; two square roots
 template <RealScalar Scalar>
-Vector3<Scalar> triangle_normal(const Vector3<Scalar>& a, const Vector3<Scalar>& b, const Vector3<Scalar>& c) noexcept {
+Vector3<Scalar> triangle_normal(const Vector3<Scalar>& a, const Vector3<Scalar>& b,
+                                const Vector3<Scalar>& c) noexcept {
   using std::sqrt;
   using Working = WorkingScalar<Scalar>;
   using Wide = Vector3<Working>;

@@ -10,7 +10,8 @@
 
 namespace feeler::detail {
 
-/// Numbers distinct positions in order of first appearance, by hashing. 0.0 and -0.0 are equal; nothing else is rounded.
+/// Numbers distinct positions in order of first appearance, by hashing. 0.0 and -0.0 are equal; nothing else
+/// is rounded.
 template <RealScalar Scalar>
 class VertexWeld {
  public:

@@ -14,26 +14,23 @@ template <class Scalar>
 struct Simplex {
   int size = 0;
   std::array<Vector3<Scalar>, 4> points;
-  std::array<int, 4> tool_vertices;  ///< the tool vertex of each point
-  std::array<int, 4> corners;        ///< the triangle corner of each point
-  std::array<Scalar, 4> weights;
+  std::array<int, 4> tool_vertices{};  ///< the tool vertex of each point
+  std::array<int, 4> corners{};        ///< the triangle corner of each point
+  std::array<Scalar, 4> weights{};
   Vector3<Scalar> closest = Vector3<Scalar>::Zero();
 
-  /// Keeps the points with the positions given, in that order.
-  void keep(std::array<int, 3> positions, std::array<Scalar, 3> weights_kept, int count) noexcept {
-    Simplex kept;
-    kept.size = count;
-    kept.closest.setZero();
-    for (int i = 0; i < count; ++i) {
-      const auto from = std::size_t(positions[std::size_t(i)]);
-      const auto to = std::size_t(i);
-      kept.points[to] = points[from];
-      kept.tool_vertices[to] = tool_vertices[from];
-      kept.corners[to] = corners[from];
-      kept.weights[to] = weights_kept[to];
-      kept.closest += weights_kept[to] * points[from];
+  /// Keeps the points with the positions given, in ascending order.
+  void keep(const std::array<int, 3>& positions, const std::array<Scalar, 3>& weights_kept, int count) noexcept {
+    size = count;
+    closest.setZero();
+    for (std::size_t to = 0; to < std::size_t(count); ++to) {
+      const auto from = std::size_t(positions[to]);
+      points[to] = points[from];
+      tool_vertices[to] = tool_vertices[from];
+      corners[to] = corners[from];
+      weights[to] = weights_kept[to];
+      closest += weights_kept[to] * points[to];
     }
-    *this = kept;
   }
 };
 
@@ -113,7 +110,7 @@ bool reduce_to_closest(Simplex<Scalar>& simplex) noexcept {
       return true;
     default: break;
   }
-  constexpr std::array<std::array<int, 4>, 3> faces{{{0, 1, 3, 2}, {1, 2, 3, 0}, {2, 0, 3, 1}}};
+  constexpr std::array<std::array<int, 4>, 3> faces{{{0, 1, 3, 2}, {1, 2, 3, 0}, {0, 2, 3, 1}}};
   Scalar best = std::numeric_limits<Scalar>::infinity();
   std::array<int, 3> positions{};
   std::array<Scalar, 3> weights{};

@@ -16,12 +16,13 @@ struct Clearance {
   Scalar allowance = Scalar(5e-12);  ///< overlap accepted where there is no clearance at all; rounding, never accumulated [m]
   Scalar touching = Scalar(1e-8);    ///< see `touching_distance` [m]
   Scalar resolution = Scalar(2.5e-7);  ///< advance too small to look for [m]
+  Scalar probe = Scalar(1e-4);         ///< length of motion over which all blockers are wanted, not only the first [m]
 
-  /// Separation required along a motion that starts `start` away: tight fits may halve it, but never add to an overlap.
+  /// Separation required along a motion that starts `start` away: tight fits may halve it, an overlap may stay but not grow.
   Scalar required(Scalar start) const noexcept {
     if (start >= 2 * kept) return kept;
     if (start > 20 * allowance) return start / 2;
-    return std::min(start, -allowance);
+    return std::clamp(start, -2 * allowance, -allowance);
   }
 };
 
@@ -117,7 +118,8 @@ Passage<typename Tool::Scalar> pass(const MovingTool<Tool>& moving, const Passed
   const Plane last = query(end);
   const Scalar last_at_start = moving.lowest(last.normal, start) - detail::highest(corners, last.normal);
   {
-    const Scalar required = clearance.required(is_known ? std::max(plane.slack, last_at_start) : last_at_start);
+    const Scalar known = is_known ? std::max(plane.slack, last_at_start) : last_at_start;
+    const Scalar required = clearance.required(std::max(known, Scalar(0)));
     if (!(detail::held_part(moving, corners, last, end, start, required, false) < Scalar(1))) {
       return {end.time, false, last.normal};
     }

@@ -136,7 +136,7 @@ class Sweep {
       result.blockers.push_back({triangle, passage.time});
     }
     if (passage.time < result.time) result.time = passage.time;
-    const Scalar enough = std::max(result.time, Scalar(1) / 4);
+    const Scalar enough = std::max(result.time, std::min(Scalar(1), clearance_.probe / moving.length()));
     if (2 * enough <= end_.time) set_end(moving, enough, mesh);
   }
 

@@ -30,7 +30,7 @@ class DualActiveSet {
   using Solution = QpSolution<Scalar>;
 
   /// Violation of a row that is accepted [m].
-  Scalar tolerance = Scalar(1e-13);
+  Scalar tolerance = Scalar(1e-12);
 
   QpStatus solve(const Problem& problem, Solution& solution) noexcept {
     solution.active.clear();

@@ -62,6 +62,7 @@ class HapticRenderer {
     clearance_.kept = margin_ / 10;
     clearance_.allowance = std::max(clearance_.allowance, rounding);
     clearance_.touching = touching_distance(radius_);
+    clearance_.probe = Working(settings.trust_radius) / 4;
     trust_ = Working(settings.trust_radius);
   }
   HapticRenderer(TriangleMesh<Scalar>&&, const Tool&, const Settings<Scalar>& = {}) = delete;
@@ -103,7 +104,7 @@ class HapticRenderer {
     }
     target_ = reference_pose(haptic_pose);
     const bool goes_on = tick_.status == Status::unconverged;
-    working_set_.age(longest_idle, 4 * Working(settings_.trust_radius), goes_on);
+    working_set_.age(longest_idle, 4 * margin_, 4 * Working(settings_.trust_radius), goes_on);
     if (!goes_on) trust_ = Working(settings_.trust_radius);
     tick_.work = 0;
     tick_.status = follow() ? Status::converged : Status::unconverged;
@@ -146,7 +147,7 @@ class HapticRenderer {
       const Proposal proposal = propose();
       const Working length = length_of(proposal.motion);
       if (length <= resting) {
-        if (proposal.is_free) pose_ = target_;
+        if (proposal.is_free && !proposal.is_capped) pose_ = target_;
         return !proposal.is_capped;
       }
       const MovingTool moving(tool_, reference_, radius_, pose_, proposal.motion);
@@ -185,7 +186,7 @@ class HapticRenderer {
       const Working last = length_of(Twist<Working>::from_vector(step));
       if (!proposal.is_capped) proposal.is_free = problem_.solution().active.empty();
       const Working length = length_of(proposal.motion);
-      const bool is_limited = !proposal.is_free || trust_ < Working(settings_.trust_radius);
+      const bool is_limited = problem_.row_count() > 0 || trust_ < Working(settings_.trust_radius);
       if (is_limited && length > trust_ && !proposal.is_capped) {
         proposal.is_capped = true;
         proposal.motion = proposal.motion * (trust_ / length);

@@ -17,8 +17,8 @@ namespace feeler {
 /// Solves for one step d of the tool: min f(d) subject to gapₖ + Jₖ d ≥ targetₖ.
 ///
 /// The target is the margin. Rows that together cannot have it (a fit tighter than twice the margin) are asked for less, only those in the
-/// infeasibility certificate: no closer than they were at the last certified pose, of which a tenth of the margin is enough. As
-/// that pose meets them, a step exists.
+/// infeasibility certificate: no closer than they were at the last certified pose, of which a fifth of the margin is enough. As
+/// that pose meets them, a step exists. Where there is no clearance at all, rounding decides who has it: there the target is 0.
 template <QpSolver Solver>
 class StepProblem {
  public:
@@ -91,11 +91,14 @@ class StepProblem {
     }
   }
 
+  static constexpr Scalar no_clearance = Scalar(1e-10);
+
   bool relax(int k, Scalar margin) noexcept {
     if (is_relaxed_[index(k)]) return false;
     is_relaxed_[index(k)] = true;
     const Scalar enough = margin / 5;
-    const Scalar target = std::clamp(certified_gaps_[index(k)], Scalar(0), enough);
+    const Scalar certified = certified_gaps_[index(k)];
+    const Scalar target = certified > no_clearance ? std::min(certified, enough) : Scalar(0);
     problem_.bounds[index(k)] = std::min(problem_.bounds[index(k)], target - rows_[k].gap);
     return true;
   }

@@ -9,7 +9,8 @@
 
 namespace feeler::detail {
 
-/// A triangle of a hull: corners counter-clockwise seen from outside; neighbour k is across the edge from corner k to corner (k+1)%3.
+/// A triangle of a hull: corners counter-clockwise seen from outside; neighbour k is across the edge from
+/// corner k to corner (k+1)%3.
 struct HullTriangle {
   std::array<int, 3> corners{};
   std::array<int, 3> neighbours{};
@@ -18,9 +19,9 @@ struct HullTriangle {
 
 /// Quickhull (Barber, Dobkin and Huhdanpaa, 1996) over a lattice.
 ///
-/// A point is added only if it is farther than `tolerance` above a face, the farthest first. Which faces it sees is decided exactly, and
-/// faces it lies in are not seen: so the horizon is always one simple cycle, no new triangle is degenerate, and the result is a closed,
-/// exactly convex surface whatever the input.
+/// A point is added only if it is farther than `tolerance` above a face, the farthest first. Which faces it
+/// sees is decided exactly, and faces it lies in are not seen: so the horizon is always one simple cycle, no
+/// new triangle is degenerate, and the result is a closed, exactly convex surface whatever the input.
 class Quickhull {
  public:
   /// @param points     at least the four of the simplex
@@ -164,7 +165,8 @@ class Quickhull {
     }
   }
 
-  /// Looks again at the points that were left out for being near: at a sharp edge, a later face may have turned away from one.
+  /// Looks again at the points that were left out for being near: at a sharp edge, a later face may have
+  /// turned away from one.
   bool return_near_points() {
     const std::vector<int> near = std::move(near_);
     near_.clear();

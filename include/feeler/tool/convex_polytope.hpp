@@ -24,11 +24,13 @@ class ConvexPolytope {
   using Scalar = Scalar_;
   static constexpr int max_vertex_count = SupportBlocks<Scalar>::max_count;
 
-  /// The convex hull of points, one a row [m]; any number of them, in any order, inside points and duplicates included.
+  /// The convex hull of points, one a row [m]; any number of them, in any order, inside points and duplicates
+  /// included.
   ///
-  /// Vertices are bit-identical to points given. Points less than 4 eps × size outside a face are dropped, faces coplanar to that are
-  /// merged; size is the diagonal of the bounding box plus the largest coordinate, where the rounding of the points comes from.
-  /// Refuses fewer than 4 points, points not finite, all equal, on a line or in a plane, and hulls of more than 256 vertices.
+  /// Vertices are bit-identical to points given. Points less than 4 eps × size outside a face are dropped,
+  /// faces coplanar to that are merged; size is the diagonal of the bounding box plus the largest coordinate,
+  /// where the rounding of the points comes from. Refuses fewer than 4 points, points not finite, all equal,
+  /// on a line or in a plane, and hulls of more than 256 vertices.
   /// @cost  allocates; milliseconds for thousands of points
   static ConvexPolytope hull_of(const Points<Scalar>& points) {
     const Lattice lattice(points);
@@ -36,7 +38,8 @@ class ConvexPolytope {
     std::vector<int> rows(corners.size());  // of the input
     for (std::size_t i = 0; i < rows.size(); ++i) rows[i] = int(i);
 
-    // Dropping the vertices that are no corners can make others droppable: repeat until none is. Two rounds are the rule.
+    // Dropping the vertices that are no corners can make others droppable: repeat until none is. Two rounds
+    // are the rule.
     for (std::array<int, 4> simplex = lattice.simplex(corners);; simplex = lattice.simplex(corners)) {
       const auto triangles = detail::Quickhull(corners, simplex, lattice.tolerance).triangles();
       const detail::HullFaces faces(corners, triangles, lattice.tolerance);
@@ -63,7 +66,8 @@ class ConvexPolytope {
   ToolEdge edge(int i) const noexcept { return edges_[std::size_t(i)]; }
   int face_count() const noexcept { return int(normals_.size()); }
   ToolFace<Scalar> face(int i) const noexcept {
-    const auto begin = std::size_t(face_begin_[std::size_t(i)]), end = std::size_t(face_begin_[std::size_t(i) + 1]);
+    const auto begin = std::size_t(face_begin_[std::size_t(i)]),
+               end = std::size_t(face_begin_[std::size_t(i) + 1]);
     return {normals_[std::size_t(i)], std::span<const int>(face_corners_.data() + begin, end - begin)};
   }
   int edge_direction_count() const noexcept { return int(edge_directions_.size()); }
@@ -128,7 +132,8 @@ class ConvexPolytope {
       tolerance = std::max(tolerance, 4.0L);
     }
 
-    /// Four points far apart: the ends of the longest axis, the point farthest from their line, the point farthest from their plane.
+    /// Four points far apart: the ends of the longest axis, the point farthest from their line, the point
+    /// farthest from their plane.
     std::array<int, 4> simplex(const std::vector<detail::LatticePoint>& corners) const {
       std::array<int, 4> result{};
       std::int64_t longest = -1;
@@ -164,7 +169,9 @@ class ConvexPolytope {
         }
       }
       if (!(thickness > tolerance))
-        refuse("ConvexPolytope: all points are in one plane; give points with a volume, for a sheet two layers of them");
+        refuse(
+            "ConvexPolytope: all points are in one plane; give points with a volume, for a sheet two layers "
+            "of them");
       return result;
     }
 
@@ -206,7 +213,8 @@ class ConvexPolytope {
     edge_directions_ = without_parallels(directions);
   }
 
-  /// One of each set of directions that are parallel to rounding: that of the largest feature, which is the most exact.
+  /// One of each set of directions that are parallel to rounding: that of the largest feature, which is the
+  /// most exact.
   static std::vector<Vector3<Scalar>> without_parallels(
       std::vector<std::pair<long double, Vector3<Working>>>& directions) {
     const Working tolerance = 32 * Working(std::numeric_limits<Scalar>::epsilon());

@@ -11,7 +11,8 @@
 
 namespace feeler::detail {
 
-/// A face of a hull: corners counter-clockwise seen from outside, and the sum of the normals of its triangles.
+/// A face of a hull: corners counter-clockwise seen from outside, and the sum of the normals of its
+/// triangles.
 struct HullFace {
   std::vector<int> corners;
   std::array<long double, 3> normal{};
@@ -19,7 +20,8 @@ struct HullFace {
 
 /// Merges the triangles of a hull into faces.
 ///
-/// A face grows from the largest triangle left, over edges, to triangles whose corners all lie within `tolerance` of its plane.
+/// A face grows from the largest triangle left, over edges, to triangles whose corners all lie within
+/// `tolerance` of its plane.
 /// @cost  O(n log n) in the triangles
 class HullFaces {
  public:
@@ -37,7 +39,8 @@ class HullFaces {
     }
   }
 
-  /// The vertices where three faces or more meet; the others are inside a face or in the middle of an edge, and are no corners.
+  /// The vertices where three faces or more meet; the others are inside a face or in the middle of an edge,
+  /// and are no corners.
   std::vector<int> corners() const {
     std::vector<std::pair<int, int>> incidences;  // vertex, face
     for (std::size_t t = 0; t < triangles_.size(); ++t)
@@ -52,7 +55,8 @@ class HullFaces {
     return result;
   }
 
-  /// The faces as polygons. A region that is no convex polygon, which only happens where the shape is as fine as the tolerance, stays in triangles.
+  /// The faces as polygons. A region that is no convex polygon, which only happens where the shape is as fine
+  /// as the tolerance, stays in triangles.
   std::vector<HullFace> polygons() const {
     std::vector<HullFace> result;
     for (const std::vector<int>& region : regions_) {
@@ -84,9 +88,8 @@ class HullFaces {
 
   bool lies_in(const HullTriangle& triangle, const LatticePlane& plane) const {
     if (!(dot(triangle.plane.normal(), plane.normal()) > 0)) return false;
-    return std::all_of(triangle.corners.begin(), triangle.corners.end(), [&](int v) {
-      return plane.height(points_[std::size_t(v)]) >= -tolerance_;
-    });
+    return std::all_of(triangle.corners.begin(), triangle.corners.end(),
+                       [&](int v) { return plane.height(points_[std::size_t(v)]) >= -tolerance_; });
   }
 
   /// The boundary of a region; empty if it is not one simple cycle through all of its vertices.
@@ -97,7 +100,8 @@ class HullFaces {
       const HullTriangle& triangle = triangles_[std::size_t(t)];
       for (std::size_t k = 0; k < 3; ++k) {
         const int neighbour = triangle.neighbours[k];
-        const bool is_inside = region.size() > 1 && std::find(region.begin(), region.end(), neighbour) != region.end();
+        const bool is_inside =
+            region.size() > 1 && std::find(region.begin(), region.end(), neighbour) != region.end();
         if (!is_inside) edges.emplace_back(triangle.corners[k], triangle.corners[(k + 1) % 3]);
         face.normal[k] += triangle.plane.normal()[k];
       }

@@ -8,7 +8,8 @@ namespace feeler::detail {
 
 __extension__ typedef __int128 WideInteger;
 
-/// Bits of a lattice coordinate: the side of the bounding box is 2^60 units, so a unit is far below the rounding of a double.
+/// Bits of a lattice coordinate: the side of the bounding box is 2^60 units, so a unit is far below the
+/// rounding of a double.
 inline constexpr int lattice_bits = 60;
 
 /// A point with coordinates in [0, 2^60].
@@ -20,8 +21,9 @@ struct LatticePoint {
 
 /// The oriented plane through three lattice points, with its exact normal (b − a) × (c − a).
 ///
-/// A component of the normal has 122 bits; it is kept as high · 2^60 + low, 0 ≤ low < 2^60, so that its product with a coordinate fits 128 bits.
-/// No rounding happens anywhere, hence no tolerance, no assumption on the floating-point environment, and topology built on it is consistent.
+/// A component of the normal has 122 bits; it is kept as high · 2^60 + low, 0 ≤ low < 2^60, so that its
+/// product with a coordinate fits 128 bits. No rounding happens anywhere, hence no tolerance, no assumption
+/// on the floating-point environment, and topology built on it is consistent.
 class LatticePlane {
  public:
   LatticePlane() noexcept = default;

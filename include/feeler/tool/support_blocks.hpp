@@ -1,4 +1,5 @@
-// The coordinates of a tool's vertices, laid out so that a compiler answers support queries with SIMD instructions.
+// The coordinates of a tool's vertices, laid out so that a compiler answers support queries with SIMD
+// instructions.
 #pragma once
 
 #include <vector>
@@ -9,7 +10,8 @@
 
 namespace feeler {
 
-/// Up to 256 points in blocks of eight: eight x, then eight y, then eight z. The last point fills up the last block.
+/// Up to 256 points in blocks of eight: eight x, then eight y, then eight z. The last point fills up the last
+/// block.
 template <RealScalar Scalar>
 class SupportBlocks {
  public:
@@ -30,7 +32,8 @@ class SupportBlocks {
     return {coordinates_[offset(i, 0)], coordinates_[offset(i, 1)], coordinates_[offset(i, 2)]};
   }
 
-  /// Index of a point farthest along a direction; of equal ones, the first of its block. A direction with a NaN gives a valid index.
+  /// Index of a point farthest along a direction; of equal ones, the first of its block. A direction with a
+  /// NaN gives a valid index.
   /// @cost  all dot products, eight at a time; no branch depends on them
   int support(const Vector3<Scalar>& direction) const noexcept {
     using Block = Eigen::Array<Scalar, block_size, 1>;

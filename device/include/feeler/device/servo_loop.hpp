@@ -36,7 +36,7 @@ class ServoLoop {
   /// Returns whether to go on. If it throws, the loop ends and the report says so.
   using Callback = std::function<bool(const ServoTick&)>;
 
-  /// Refuses (`std::invalid_argument`) an empty callback and a rate that is negative, not finite or above 1 GHz.
+  /// Refuses (`std::invalid_argument`) an empty callback and a rate other than 0 outside 0.001 to 1e9 Hz.
   /// @param clock  outlives the loop; none is CLOCK_MONOTONIC
   ServoLoop(const ServoSettings& settings, Callback callback, Clock* clock = nullptr);
   /// Stops and waits.

@@ -9,7 +9,8 @@
 
 namespace feeler {
 
-/// Where the hand wants to be at a time since the start [s]. Called several times a tick: no allocation, no exception.
+/// Where the hand wants to be at a time since the start [s]. Called several times a tick: no allocation, no exception. Where it gives a
+/// NaN, an infinity or a zero quaternion, the hand stays where it last wanted to be.
 using DevicePath = std::function<DevicePose(double time)>;
 
 /// The handle of a device as a rigid body of isotropic inertia about its origin.

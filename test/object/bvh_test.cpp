@@ -1,0 +1,222 @@
+#include <boost/test/unit_test.hpp>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <random>
+#include <vector>
+
+#include "feeler/object/triangle_mesh.hpp"
+
+using feeler::BvhNode;
+using feeler::Points;
+using feeler::TriangleMesh;
+using feeler::Triangles;
+using Wide = feeler::Vector3<long double>;
+
+namespace {
+double unit(std::mt19937& bits) {
+  return double(bits()) / 2147483648.0 - 1.0;
+}
+
+/// A height field of n × n vertices over a square of side 1.
+template <class Scalar>
+TriangleMesh<Scalar> terrain(int n, Scalar scale = Scalar(1), Scalar offset = Scalar(0)) {
+  Points<Scalar> vertices(n * n, 3);
+  Triangles triangles(2 * (n - 1) * (n - 1), 3);
+  for (int i = 0; i < n; ++i)
+    for (int j = 0; j < n; ++j) {
+      const double x = double(i) / n, y = double(j) / n;
+      vertices.row(i * n + j) << Scalar(x), Scalar(y),
+          Scalar(0.1 * std::sin(9 * x) * std::cos(7 * y) + 0.01 * std::sin(60 * x + 50 * y));
+      vertices.row(i * n + j) = (vertices.row(i * n + j) * scale).array() + offset;
+    }
+  int t = 0;
+  for (int i = 0; i + 1 < n; ++i)
+    for (int j = 0; j + 1 < n; ++j) {
+      const int a = i * n + j, b = a + n;
+      triangles.row(t++) << a, b, b + 1;
+      triangles.row(t++) << a, b + 1, a + 1;
+    }
+  return TriangleMesh<Scalar>(vertices, triangles);
+}
+
+/// Walks from the root; checks the boxes against the exact corners, the leaves, the nesting and the depth.
+template <class Scalar>
+void check_hierarchy(const TriangleMesh<Scalar>& mesh) {
+  const auto& bvh = mesh.bvh();
+  const auto nodes = bvh.nodes();
+  const auto order = bvh.triangle_order();
+  const Wide origin = bvh.origin().template cast<long double>();
+  std::vector<int> seen(std::size_t(mesh.triangle_count()), 0);
+  std::vector<int> visited(nodes.size(), 0);
+  struct Entry {
+    std::size_t node;
+    int depth;
+  };
+  std::vector<Entry> stack{{0, 1}};
+  bool is_nested = true, is_inside = true, is_small = true, is_shallow = true;
+  while (!stack.empty()) {
+    const auto [i, depth] = stack.back();
+    stack.pop_back();
+    const BvhNode& node = nodes[i];
+    ++visited[i];
+    is_shallow = is_shallow && depth <= bvh.max_depth;
+    if (!node.is_leaf()) {
+      for (std::size_t child : {std::size_t(node.first), std::size_t(node.first) + 1}) {
+        for (int k = 0; k < 3; ++k)
+          is_nested =
+              is_nested && nodes[child].lower[k] >= node.lower[k] && nodes[child].upper[k] <= node.upper[k];
+        stack.push_back({child, depth + 1});
+      }
+      continue;
+    }
+    is_small = is_small && node.count > 0 && node.count <= bvh.max_leaf_size;
+    for (std::int32_t s = node.first; s < node.first + node.count; ++s) {
+      const int triangle = order[std::size_t(s)];
+      ++seen[std::size_t(triangle)];
+      for (int k = 0; k < 3; ++k) {
+        const Wide exact = mesh.corners(triangle).col(k).template cast<long double>() - origin;
+        for (int axis = 0; axis < 3; ++axis)
+          is_inside = is_inside && static_cast<long double>(node.lower[axis]) <= exact[axis] &&
+                      exact[axis] <= static_cast<long double>(node.upper[axis]);
+      }
+    }
+  }
+  BOOST_TEST(is_nested);
+  BOOST_TEST(is_inside);
+  BOOST_TEST(is_small);
+  BOOST_TEST(is_shallow);
+  BOOST_TEST((std::count(seen.begin(), seen.end(), 1) == mesh.triangle_count()));
+  BOOST_TEST((std::count(visited.begin(), visited.end(), 1) == std::ptrdiff_t(nodes.size())));
+}
+
+double half_area(const float* lower, const float* upper) {
+  const double x = double(upper[0]) - double(lower[0]), y = double(upper[1]) - double(lower[1]),
+               z = double(upper[2]) - double(lower[2]);
+  return x * y + y * z + z * x;
+}
+
+/// Expected number of nodes and triangles met by a random line that meets the root.
+template <class Scalar>
+double surface_area_cost(const TriangleMesh<Scalar>& mesh) {
+  double cost = 0;
+  for (const BvhNode& node : mesh.bvh().nodes())
+    cost += half_area(node.lower, node.upper) * (node.is_leaf() ? 1 + node.count : 1);
+  return cost / half_area(mesh.bvh().nodes()[0].lower, mesh.bvh().nodes()[0].upper);
+}
+
+/// The same cost of a tree that halves the list along its longest side, by recursion.
+template <class Scalar>
+double median_cost(const TriangleMesh<Scalar>& mesh, std::vector<int>::iterator first,
+                   std::vector<int>::iterator last) {
+  Eigen::AlignedBox3f box;
+  const auto middle_of = [&mesh](int t, int axis) {
+    return mesh.corners(t).row(axis).minCoeff() + mesh.corners(t).row(axis).maxCoeff();
+  };
+  for (auto i = first; i != last; ++i)
+    for (int k = 0; k < 3; ++k)
+      box.extend((mesh.corners(*i).col(k) - mesh.bvh().origin()).template cast<float>());
+  const double area = half_area(box.min().data(), box.max().data());
+  if (last - first <= mesh.bvh().max_leaf_size) return area * double(1 + (last - first));
+  int axis = 0;
+  box.sizes().maxCoeff(&axis);
+  const auto middle = first + (last - first) / 2;
+  std::nth_element(first, middle, last,
+                   [&](int a, int b) { return middle_of(a, axis) < middle_of(b, axis); });
+  return area + median_cost(mesh, first, middle) + median_cost(mesh, middle, last);
+}
+
+TriangleMesh<double> soup(const std::vector<Eigen::Matrix3d>& corners) {
+  Points<double> vertices(3 * Eigen::Index(corners.size()), 3);
+  Triangles triangles(Eigen::Index(corners.size()), 3);
+  for (std::size_t i = 0; i < corners.size(); ++i) {
+    const auto row = Eigen::Index(3 * i);
+    vertices.middleRows(row, 3) = corners[i].transpose();
+    triangles.row(Eigen::Index(i)) << int(row), int(row) + 1, int(row) + 2;
+  }
+  return TriangleMesh<double>(vertices, triangles);
+}
+}  // namespace
+
+BOOST_AUTO_TEST_SUITE(bvh)
+
+BOOST_AUTO_TEST_CASE(boxes_contain_their_triangles_at_every_size_and_place) {
+  for (const double offset : {0.0, 1.0, -1e6, 1e6})
+    for (const double scale : {1e-6, 1e-3, 1.0, 1e3}) check_hierarchy(terrain<double>(20, scale, offset));
+  check_hierarchy(terrain<float>(20));
+  check_hierarchy(terrain<float>(20, 1e-6F, 1e3F));
+  check_hierarchy(terrain<float>(20, 1e-6F));
+  check_hierarchy(terrain<long double>(20, 1e-6L, 1e6L));
+}
+
+BOOST_AUTO_TEST_CASE(random_triangles_of_mixed_sizes_are_each_in_one_leaf) {
+  for (unsigned seed = 1; seed <= 5; ++seed) {
+    BOOST_TEST_MESSAGE("seed " << seed);
+    std::mt19937 bits(seed);
+    std::vector<Eigen::Matrix3d> triangles;
+    for (int i = 0; i < 1500; ++i) {
+      const double size = std::pow(10.0, 6 * unit(bits));
+      const Eigen::Vector3d place(unit(bits), unit(bits), unit(bits));
+      Eigen::Matrix3d t;
+      for (int k = 0; k < 3; ++k)
+        t.col(k) = place + size * Eigen::Vector3d(unit(bits), unit(bits), unit(bits));
+      triangles.push_back(t);
+    }
+    check_hierarchy(soup(triangles));
+  }
+}
+
+BOOST_AUTO_TEST_CASE(one_triangle_is_one_leaf) {
+  const auto mesh = soup({Eigen::Matrix3d::Identity()});
+  BOOST_TEST(mesh.bvh().nodes().size() == 1U);
+  check_hierarchy(mesh);
+  check_hierarchy(soup({Eigen::Matrix3d::Zero()}));
+}
+
+BOOST_AUTO_TEST_CASE(coincident_triangles_are_halved_to_leaves) {
+  const auto mesh = soup(std::vector<Eigen::Matrix3d>(1000, Eigen::Matrix3d::Identity()));
+  check_hierarchy(mesh);
+  BOOST_TEST(mesh.bvh().nodes().size() <= 2 * 512U);
+}
+
+BOOST_AUTO_TEST_CASE(depth_is_bounded_where_every_split_takes_off_a_sliver) {
+  // Distances that shrink by half leave all but a few items in the first bin, level after level.
+  std::vector<feeler::BvhItem> items;
+  for (int i = 0; i < 240; ++i) {
+    const float x = std::ldexp(1.0F, -i / 2);
+    items.push_back({{x, x, x}, {x, x, x}, i});
+  }
+  const auto depth_with = [&items](int limit) {
+    auto copy = items;
+    feeler::BvhBuilder builder(copy, limit);
+    std::vector<int> depths(builder.nodes().size(), 1);
+    for (std::size_t i = 0; i < depths.size(); ++i)  // children come after their parent
+      if (const BvhNode& node = builder.nodes()[i]; !node.is_leaf())
+        depths[std::size_t(node.first)] = depths[std::size_t(node.first) + 1] = depths[i] + 1;
+    return *std::max_element(depths.begin(), depths.end());
+  };
+  BOOST_TEST(depth_with(64) > 16);
+  for (const int limit : {8, 10, 12, 16}) BOOST_TEST(depth_with(limit) <= limit);
+}
+
+BOOST_AUTO_TEST_CASE(surface_area_cost_is_no_worse_than_that_of_halving) {
+  const auto mesh = terrain<double>(100);
+  std::vector<int> all(std::size_t(mesh.triangle_count()));
+  for (std::size_t i = 0; i < all.size(); ++i) all[i] = int(i);
+  const auto& root = mesh.bvh().nodes()[0];
+  const double median = median_cost(mesh, all.begin(), all.end()) / half_area(root.lower, root.upper);
+  BOOST_TEST_MESSAGE("surface area cost " << surface_area_cost(mesh) << ", halving " << median);
+  BOOST_TEST(surface_area_cost(mesh) <= median);
+}
+
+BOOST_AUTO_TEST_CASE(million_triangles_are_built) {
+  const auto start = std::chrono::steady_clock::now();
+  const auto mesh = terrain<double>(708);
+  const std::chrono::duration<double> time = std::chrono::steady_clock::now() - start;
+  BOOST_TEST_MESSAGE(mesh.triangle_count() << " triangles in " << time.count() << " s");
+  BOOST_TEST(mesh.triangle_count() == 2 * 707 * 707);
+  BOOST_TEST(mesh.report().boundary_edges == 4 * 707);
+}
+
+BOOST_AUTO_TEST_SUITE_END()

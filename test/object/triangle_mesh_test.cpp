@@ -1,0 +1,357 @@
+#include <boost/test/unit_test.hpp>
+
+#include <Eigen/Geometry>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <memory>
+#include <random>
+#include <stdexcept>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "feeler/object/normal_cone.hpp"
+#include "feeler/object/triangle_mesh.hpp"
+
+using feeler::Convexity;
+using feeler::MeshTopology;
+using feeler::Points;
+using feeler::Triangles;
+using Mesh = feeler::TriangleMesh<double>;
+using Vector = feeler::Vector3<double>;
+
+namespace {
+double unit(std::mt19937& bits) {
+  return double(bits()) / 2147483648.0 - 1.0;
+}
+
+Points<double> points(std::initializer_list<Vector> list) {
+  Points<double> result(Eigen::Index(list.size()), 3);
+  Eigen::Index i = 0;
+  for (const Vector& p : list) result.row(i++) = p.transpose();
+  return result;
+}
+Triangles rows(std::initializer_list<std::array<int, 3>> list) {
+  Triangles result(Eigen::Index(list.size()), 3);
+  Eigen::Index i = 0;
+  for (const auto& t : list) result.row(i++) << t[0], t[1], t[2];
+  return result;
+}
+
+Points<double> cube_points() {
+  Points<double> result(8, 3);
+  for (int i = 0; i < 8; ++i) result.row(i) << i % 2, i / 2 % 2, i / 4;
+  return result;
+}
+Triangles cube_triangles() {
+  return rows({{0, 2, 3},
+               {0, 3, 1},
+               {4, 5, 7},
+               {4, 7, 6},
+               {0, 1, 5},
+               {0, 5, 4},
+               {2, 6, 7},
+               {2, 7, 3},
+               {0, 4, 6},
+               {0, 6, 2},
+               {1, 3, 7},
+               {1, 7, 5}});
+}
+/// Two triangles over the edge (0,0,0)–(0,1,0), whose far corners are at the height given; normals up.
+Mesh fold(double height) {
+  return Mesh(points({{0, 0, 0}, {0, 1, 0}, {1, 0.5, height}, {-1, 0.5, height}}),
+              rows({{1, 0, 2}, {0, 1, 3}}));
+}
+/// A bumpy sheet around the origin, of six triangles around vertex 0.
+Mesh fan(const std::array<double, 6>& heights) {
+  Points<double> p(7, 3);
+  Triangles t(6, 3);
+  p.row(0).setZero();
+  for (int i = 0; i < 6; ++i) {
+    p.row(i + 1) << std::cos(i * 1.0471975511965976), std::sin(i * 1.0471975511965976),
+        heights[std::size_t(i)];
+    t.row(i) << 0, i + 1, (i + 1) % 6 + 1;
+  }
+  return Mesh(p, t);
+}
+
+Vector closest_on_segment(const Vector& a, const Vector& b, const Vector& p) {
+  const double s = (b - a).squaredNorm() > 0 ? (p - a).dot(b - a) / (b - a).squaredNorm() : 0;
+  return a + std::clamp(s, 0.0, 1.0) * (b - a);
+}
+/// Distance of a point to a mesh, from the definition: to all faces, edges and corners.
+double distance(const Mesh& mesh, const Vector& p) {
+  double best = std::numeric_limits<double>::infinity();
+  for (int t = 0; t < mesh.triangle_count(); ++t) {
+    const Eigen::Matrix3d c = mesh.corners(t);
+    for (int k = 0; k < 3; ++k)
+      best = std::min(best, (closest_on_segment(c.col(k), c.col((k + 1) % 3), p) - p).norm());
+    const Vector n = (c.col(1) - c.col(0)).cross(c.col(2) - c.col(0)).normalized();
+    bool is_over = true;
+    for (int k = 0; k < 3; ++k)
+      is_over = is_over && n.dot((c.col((k + 1) % 3) - c.col(k)).cross(p - c.col(k))) >= 0;
+    if (is_over) best = std::min(best, std::abs(n.dot(p - c.col(0))));
+  }
+  return best;
+}
+
+template <class Build>
+std::string refusal(const Build& build) {
+  try {
+    build();
+  } catch (const std::invalid_argument& e) {
+    return e.what();
+  }
+  return "accepted";
+}
+bool contains(const std::string& text, const char* part) {
+  return text.find(part) != std::string::npos;
+}
+}  // namespace
+
+BOOST_AUTO_TEST_SUITE(triangle_mesh)
+
+BOOST_AUTO_TEST_CASE(cube_is_closed_and_all_its_edges_and_corners_stick_out) {
+  const Mesh mesh(cube_points(), cube_triangles());
+  BOOST_TEST(mesh.report().is_closed_manifold());
+  BOOST_TEST(mesh.report().vertices == 8);
+  BOOST_TEST(mesh.report().welded_vertices == 0);
+  int convex = 0, flat = 0;
+  for (int t = 0; t < 12; ++t) {
+    const Vector outward = mesh.corners(t).rowwise().mean() - Vector(0.5, 0.5, 0.5);
+    BOOST_TEST(std::abs(mesh.normal(t).dot(outward) - 0.5) < 1e-15);
+    for (int k = 0; k < 3; ++k) {
+      convex += mesh.topology().edge_convexity(t, k) == Convexity::convex;
+      flat += mesh.topology().edge_convexity(t, k) == Convexity::flat;
+      const int other = mesh.topology().neighbour(t, k);
+      BOOST_TEST_REQUIRE(other >= 0);
+      bool is_mutual = false;
+      for (int j = 0; j < 3; ++j) is_mutual = is_mutual || mesh.topology().neighbour(other, j) == t;
+      BOOST_TEST(is_mutual);
+    }
+  }
+  BOOST_TEST(convex == 24);
+  BOOST_TEST(flat == 12);
+  int valences = 0;
+  for (int v = 0; v < 8; ++v) {
+    BOOST_TEST((mesh.topology().vertex_convexity(v) == Convexity::convex));
+    valences += int(mesh.topology().vertex_neighbours(v).size());
+  }
+  BOOST_TEST(valences == 2 * 18);
+  BOOST_TEST((mesh.bounds().min() == Vector(0, 0, 0)));
+  BOOST_TEST((mesh.bounds().max() == Vector(1, 1, 1)));
+}
+
+BOOST_AUTO_TEST_CASE(room_is_a_cube_inside_out_with_concave_edges_and_corners) {
+  Triangles inverted = cube_triangles();
+  inverted.col(1).swap(inverted.col(2));
+  const Mesh mesh(cube_points(), inverted);
+  BOOST_TEST(mesh.report().is_closed_manifold());
+  int concave = 0;
+  for (int t = 0; t < 12; ++t)
+    for (int k = 0; k < 3; ++k) concave += mesh.topology().edge_convexity(t, k) == Convexity::concave;
+  BOOST_TEST(concave == 24);
+  for (int v = 0; v < 8; ++v) BOOST_TEST((mesh.topology().vertex_convexity(v) == Convexity::concave));
+}
+
+BOOST_AUTO_TEST_CASE(roof_is_convex_valley_concave_and_plane_flat) {
+  const auto middle_edge = [](const Mesh& mesh) { return mesh.topology().edge_convexity(0, 0); };
+  for (const double height : {1.0, 1e-3, 1e-9, 1e-14}) {
+    BOOST_TEST((middle_edge(fold(-height)) == Convexity::convex));
+    BOOST_TEST((middle_edge(fold(height)) == Convexity::concave));
+  }
+  BOOST_TEST((middle_edge(fold(0)) == Convexity::flat));
+  BOOST_TEST((middle_edge(fold(1e-17)) == Convexity::flat));
+  BOOST_TEST((fold(1).topology().edge_convexity(0, 1) == Convexity::boundary));
+  BOOST_TEST((fold(1).topology().vertex_convexity(0) == Convexity::boundary));
+}
+
+BOOST_AUTO_TEST_CASE(knife_edge_of_a_sheet_with_two_sides_is_convex) {
+  const Mesh mesh(points({{0, 0, 0}, {0, 1, 0}, {1, 0.5, 0}, {0.7, 0.2, 0}}), rows({{1, 0, 2}, {0, 1, 3}}));
+  BOOST_TEST((mesh.topology().edge_convexity(0, 0) == Convexity::convex));
+}
+
+BOOST_AUTO_TEST_CASE(saddle_vertex_is_mixed_and_tip_and_pit_are_not) {
+  const auto middle = [](double height, double wave) {
+    const Mesh mesh =
+        fan({height + wave, height - wave, height + wave, height - wave, height + wave, height - wave});
+    return mesh.topology().vertex_convexity(0);
+  };
+  BOOST_TEST((middle(-0.5, 0) == Convexity::convex));
+  BOOST_TEST((middle(0.5, 0) == Convexity::concave));
+  BOOST_TEST((middle(0, 0) == Convexity::flat));
+  BOOST_TEST((middle(0, 0.5) == Convexity::mixed));
+}
+
+BOOST_AUTO_TEST_CASE(open_sheet_has_a_boundary) {
+  const Mesh mesh = fan({0, 0, 0, 0, 0, 0});
+  BOOST_TEST(mesh.report().boundary_edges == 6);
+  BOOST_TEST(!mesh.report().is_closed_manifold());
+  BOOST_TEST(mesh.topology().neighbour(0, 1) == MeshTopology::boundary);
+  BOOST_TEST(mesh.topology().neighbour(0, 0) == 5);
+  BOOST_TEST(mesh.topology().neighbour(0, 2) == 1);
+  BOOST_TEST(contains(to_string(mesh.report()),
+                      "6 triangles on 7 vertices; not a closed surface. It has 6 open edges."));
+}
+
+BOOST_AUTO_TEST_CASE(three_triangles_at_an_edge_are_non_manifold) {
+  const Mesh mesh(points({{0, 0, 0}, {0, 1, 0}, {1, 0, 0}, {-1, 0, 0}, {0, 0, 1}}),
+                  rows({{0, 1, 2}, {1, 0, 3}, {0, 1, 4}}));
+  BOOST_TEST(mesh.report().non_manifold_edges == 1);
+  BOOST_TEST(mesh.report().non_manifold_vertices == 2);
+  for (int t = 0; t < 3; ++t) {
+    BOOST_TEST(mesh.topology().neighbour(t, 0) == MeshTopology::non_manifold);
+    BOOST_TEST((mesh.topology().edge_convexity(t, 0) == Convexity::non_manifold));
+  }
+}
+
+BOOST_AUTO_TEST_CASE(two_cubes_that_share_a_corner_have_a_non_manifold_vertex) {
+  Points<double> p(16, 3);
+  p.topRows(8) = cube_points();
+  p.bottomRows(8) = -cube_points();
+  Triangles t(24, 3);
+  t.topRows(12) = cube_triangles();
+  t.bottomRows(12) = cube_triangles().array() + 8;
+  const Mesh mesh(p, t);
+  BOOST_TEST(mesh.report().welded_vertices == 1);
+  BOOST_TEST(mesh.report().non_manifold_vertices == 1);
+  BOOST_TEST(mesh.report().boundary_edges == 0);
+  BOOST_TEST(!mesh.report().is_closed_manifold());
+}
+
+BOOST_AUTO_TEST_CASE(duplicate_degenerate_and_inverted_triangles_are_kept_and_reported) {
+  Triangles t(16, 3);
+  t.topRows(12) = cube_triangles();
+  t.row(12) << 3, 0, 2;  // row 0 again
+  t.row(13) << 3, 2, 0;  // and turned over
+  t.row(14) << 5, 5, 7;
+  t.row(15) << 6, 6, 6;
+  const Mesh mesh(cube_points(), t);
+  BOOST_TEST(mesh.triangle_count() == 16);
+  BOOST_TEST(mesh.report().duplicate_triangles == 2);
+  BOOST_TEST(mesh.report().degenerate_triangles == 2);
+  BOOST_TEST(mesh.report().non_manifold_edges == 3);
+  BOOST_TEST(mesh.normal(14).isZero(0));
+  for (int i = 0; i < 16; ++i)
+    for (int k = 0; k < 3; ++k)
+      BOOST_TEST((mesh.corners(i).col(k) == cube_points().row(t(i, k)).transpose()));
+
+  Triangles inverted = cube_triangles();
+  std::swap(inverted(4, 0), inverted(4, 1));
+  BOOST_TEST(Mesh(cube_points(), inverted).report().inconsistent_edges == 3);
+}
+
+BOOST_AUTO_TEST_CASE(triangle_is_degenerate_only_to_rounding_at_any_size) {
+  for (const double scale : {1e-150, 1e-6, 1.0, 1e6, 1e150}) {
+    const auto one = [scale](double height) {
+      return Mesh(points({{0, 0, 0}, {scale, 0, 0}, {scale / 3, scale * height, 0}}), rows({{0, 1, 2}}));
+    };
+    BOOST_TEST(one(0).report().degenerate_triangles == 1);
+    BOOST_TEST(one(1e-12).report().degenerate_triangles == 0);
+    BOOST_TEST((one(1e-12).normal(0) - Vector(0, 0, 1)).norm() < 1e-15);
+  }
+}
+
+BOOST_AUTO_TEST_CASE(soup_is_welded_also_over_the_sign_of_zero) {
+  Points<double> p(36, 3);
+  Triangles t(12, 3);
+  for (int i = 0; i < 36; ++i) {
+    p.row(i) = cube_points().row(cube_triangles()(i / 3, i % 3));
+    for (int k = 0; k < 3; ++k)
+      if (p(i, k) == 0 && (i + k) % 2 == 0) p(i, k) = -0.0;
+    t(i / 3, i % 3) = i;
+  }
+  const Mesh mesh(p, t);
+  BOOST_TEST(mesh.vertex_count() == 8);
+  BOOST_TEST(mesh.report().welded_vertices == 28);
+  BOOST_TEST(mesh.report().is_closed_manifold());
+}
+
+BOOST_AUTO_TEST_CASE(copies_do_not_refer_to_the_original) {
+  auto original = std::make_unique<Mesh>(cube_points(), cube_triangles());
+  const Mesh copy = *original;
+  original.reset();
+  BOOST_TEST(copy.topology().neighbour(0, 2) == 1);
+  BOOST_TEST(feeler::vertex_cone_contains<double>(copy, 0, Vector(-1, -1, -1).normalized(), 0.0));
+  BOOST_TEST(copy.bvh().triangle_order().size() == 12U);
+}
+
+BOOST_AUTO_TEST_CASE(cones_agree_with_the_closest_point) {
+  for (unsigned seed = 1; seed <= 40; ++seed) {
+    BOOST_TEST_MESSAGE("seed " << seed);
+    std::mt19937 bits(seed);
+    std::array<double, 6> heights{};
+    for (double& h : heights) h = unit(bits);
+    const Mesh mesh = fan(heights);
+    int inside = 0;
+    for (int i = 0; i < 400; ++i) {
+      const Vector any = Vector(unit(bits), unit(bits), unit(bits)).normalized();
+      const double t = 1e-3;
+      // Closest there to within the tilt that a tolerance of 1e-3 in the sine allows; directions in between
+      // prove nothing.
+      const auto check = [&](const Vector& place, const Vector& d, bool strictly, bool loosely) {
+        const bool is_closest = distance(mesh, place + t * d) >= t * (1 - 1e-12);
+        if (strictly) BOOST_TEST(is_closest);
+        if (!loosely) BOOST_TEST(!is_closest);
+        inside += strictly;
+      };
+      check(Vector::Zero(), any, feeler::vertex_cone_contains<double>(mesh, 0, any, -1e-3),
+            feeler::vertex_cone_contains<double>(mesh, 0, any, 1e-3));
+      for (int triangle = 0; triangle < 6; ++triangle)
+        for (int k = 0; k < 3; ++k) {
+          const Eigen::Matrix3d c = mesh.corners(triangle);
+          const Vector along = (c.col((k + 1) % 3) - c.col(k)).normalized();
+          const Vector d = (any - along * along.dot(any)).normalized();
+          const Vector place = c.col(k) + 0.5 * (c.col((k + 1) % 3) - c.col(k));
+          check(place, d, feeler::edge_cone_contains<double>(mesh, triangle, k, d, -1e-3),
+                feeler::edge_cone_contains<double>(mesh, triangle, k, d, 1e-3));
+        }
+    }
+    BOOST_TEST(inside > 0);
+  }
+}
+
+BOOST_AUTO_TEST_CASE(vertex_of_many_edges_accepts_every_direction) {
+  const int n = 65;
+  Points<double> p(n + 1, 3);
+  Triangles t(n, 3);
+  p.row(n).setZero();
+  for (int i = 0; i < n; ++i) {
+    p.row(i) << std::cos(6.283185307179586 * i / n), std::sin(6.283185307179586 * i / n), -1;
+    t.row(i) << n, i, (i + 1) % n;
+  }
+  const Mesh mesh(p, t);
+  int tip = 0;
+  for (int v = 0; v < mesh.vertex_count(); ++v)
+    if (mesh.vertex(v).isZero(0)) tip = v;
+  BOOST_TEST(mesh.topology().vertex_neighbours(tip).size() == 65U);
+  BOOST_TEST(feeler::vertex_cone_contains<double>(mesh, tip, Vector(0, 0, -1), 0.0));
+}
+
+BOOST_AUTO_TEST_CASE(bad_input_is_refused_with_a_sentence) {
+  Points<double> p = cube_points();
+  Triangles t = cube_triangles();
+  BOOST_TEST(contains(refusal([&] { Mesh(p, Triangles(0, 3)); }), "there are no triangles"));
+  t(7, 1) = 8;
+  BOOST_TEST(contains(refusal([&] { Mesh(p, t); }), "triangle 7 has the index 8, but there are 8 vertices"));
+  t(7, 1) = -1;
+  BOOST_TEST(contains(refusal([&] { Mesh(p, t); }), "triangle 7 has the index -1"));
+  p(3, 2) = std::numeric_limits<double>::infinity();
+  BOOST_TEST(contains(refusal([&] { Mesh(p, cube_triangles()); }), "vertex 3 has a NaN or an infinity"));
+}
+
+BOOST_AUTO_TEST_CASE(float_and_long_double_meshes_have_the_same_topology) {
+  const feeler::TriangleMesh<float> narrow(cube_points().cast<float>(), cube_triangles());
+  const feeler::TriangleMesh<long double> wide(cube_points().cast<long double>(), cube_triangles());
+  BOOST_TEST(narrow.report().is_closed_manifold());
+  BOOST_TEST(wide.report().is_closed_manifold());
+  for (int t = 0; t < 12; ++t)
+    for (int k = 0; k < 3; ++k)
+      BOOST_TEST((narrow.topology().edge_convexity(t, k) == wide.topology().edge_convexity(t, k)));
+  BOOST_TEST(
+      feeler::edge_cone_contains<float>(narrow, 0, 0, feeler::Vector3<float>(-1, 0, -1).normalized(), 0.0F));
+}
+
+BOOST_AUTO_TEST_SUITE_END()
