@@ -145,7 +145,7 @@ std::string run_settings(const RunFigureData& data) {
   }
   const bool is_simple = data.drawn_triangles() < 1000;
   return settings + assignment("tilt", RunFigureData::tilt) + assignment("turn", RunFigureData::turn) +
-         assignment("zoom", 1.7) + assignment("opacity", is_simple ? 0.45 : 1.0) +
+         assignment("zoom", 2.0) + assignment("opacity", is_simple ? 0.45 : 1.0) +
          assignment("edge_width", is_simple ? 0.7 : 0.05) + "edge_colour = '" + (is_simple ? "#8d877c" : "#b9ae9b") + "'\n";
 }
 

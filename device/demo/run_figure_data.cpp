@@ -13,7 +13,7 @@ namespace {
 
 using Vector = Vector3<double>;
 
-constexpr std::size_t most_triangles = 40000;
+constexpr std::size_t most_triangles = 60000;
 constexpr std::size_t most_points = 4000;
 constexpr Eigen::Index few_triangles = 30000;  // fewer are drawn whole, more only around the ways
 
