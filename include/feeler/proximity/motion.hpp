@@ -69,9 +69,12 @@ class MovingTool {
 
   /// Least height of the tool along a world normal: min n·x over its points x, relative to `origin()` [m].
   Scalar lowest(const Vector& normal, const Frame& frame) const noexcept {
-    const Vector normal_tool = frame.rotation.transpose() * normal;
+    return lowest_in_tool(frame.rotation.transpose() * normal) + normal.dot(frame.shift);
+  }
+  /// Least height of the tool above its reference point along a normal in the tool frame [m].
+  Scalar lowest_in_tool(const Vector& normal_tool) const noexcept {
     const int vertex = tool_.support(Vector(-normal_tool));
-    return normal_tool.dot(tool_.vertex(vertex) - reference_) + normal.dot(frame.shift);
+    return normal_tool.dot(tool_.vertex(vertex) - reference_);
   }
 
   /// Bound on how far a tool point strays from its chord along a fixed world normal over a part of the motion [m].

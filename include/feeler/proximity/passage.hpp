@@ -85,10 +85,39 @@ typename Tool::Scalar held_part(const MovingTool<Tool>& moving, const Matrix3<ty
 
 }  // namespace detail
 
+namespace detail {
+
+/// Whether a plane that turns from one normal to another certainly holds over [start, end].
+///
+/// Edges that roll over each other turn their common normal, and no fixed plane follows. With n(t) = (1−t)n₀ + t n₁ and chords for the
+/// tool points, n(t)·(x(t) − y) is a quadratic in Bernstein form with the coefficients b₀ = n₀·(x₀ − y), b₁ = ½(n₀·(x₁ − y) + n₁·(x₀ − y))
+/// and b₂ = n₁·(x₁ − y); each has its minimum over the tool at one support point. Less the sagitta g of the chords, 4g t(1 − t), it
+/// stays positive where b₁ − 2g > −√(b₀b₂).
+template <ConvexTool Tool>
+bool turning_plane_holds(const MovingTool<Tool>& moving, const Matrix3<typename Tool::Scalar>& corners,
+                         const HeldPlane<typename Tool::Scalar>& first, const MotionFrame<typename Tool::Scalar>& start,
+                         const HeldPlane<typename Tool::Scalar>& last, const MotionFrame<typename Tool::Scalar>& end,
+                         typename Tool::Scalar required) noexcept {
+  using Scalar = typename Tool::Scalar;
+  using std::sqrt;
+  const Scalar b0 = first.slack - required;
+  const Scalar b2 = last.slack - required;
+  if (!(b0 >= Scalar(0)) || !(b2 >= Scalar(0))) return false;
+  const Vector3<Scalar> across = end.rotation.transpose() * first.normal + start.rotation.transpose() * last.normal;
+  const Scalar lowest = moving.lowest_in_tool(across) + first.normal.dot(end.shift) + last.normal.dot(start.shift);
+  const Scalar b1 = (lowest - highest<Scalar>(corners, first.normal + last.normal)) / 2 - required;
+  const Scalar duration = end.time - start.time;
+  const Scalar sagitta = std::max(moving.sagitta(first.normal, duration), moving.sagitta(last.normal, duration));
+  return b1 - 2 * sagitta >= -sqrt(b0 * b2);
+}
+
+}  // namespace detail
+
 /// Certifies the motion past one triangle up to `end.time`, or up to where it may be blocked.
 ///
-/// A plane that separates at both ends of a part of the motion, less its sagitta, separates in between. From the start the motion advances
-/// by such parts, each with the separating plane where it begins, until the end or until parts get shorter than the resolution.
+/// A plane that separates at both ends of a part of the motion, less its sagitta, separates in between; so does a plane that turns from
+/// one separating normal to another. From the start the motion advances by such parts until the end, or until parts get shorter
+/// than the resolution.
 /// @param work  grows by one for each distance query
 /// @cost  0 queries for a plane that holds, 1 to 4 as a rule, at most 25
 template <ConvexTool Tool>
@@ -100,35 +129,42 @@ Passage<typename Tool::Scalar> pass(const MovingTool<Tool>& moving, const Passed
   using Plane = detail::HeldPlane<Scalar>;
   const Matrix3<Scalar>& corners = triangle.corners;
   ClosestFeatures warm = triangle.features;
-  const auto query = [&](const MotionFrame<Scalar>& frame) {
+  // Where shapes overlap only the sign matters, unless they touched from the start: then the least overlap decides.
+  const auto query = [&](const MotionFrame<Scalar>& frame, bool touches) {
     ++work;
-    const auto closest = separation(moving.tool(), moving.in_tool(corners, frame), warm, clearance.touching);
+    const Matrix3<Scalar> in_tool = moving.in_tool(corners, frame);
+    auto closest = gjk(moving.tool(), in_tool, warm, clearance.touching);
     warm = closest.features;
+    if (closest.is_touching) {
+      if (!touches) return Plane{Vector3<Scalar>::Zero(), -std::numeric_limits<Scalar>::infinity()};
+      closest = separation_of_touching(moving.tool(), in_tool, closest);
+    }
     return Plane{frame.rotation * closest.normal, closest.distance};
   };
-  Plane plane{triangle.normal, Scalar(0)};
+  const auto slack_at = [&](const Vector3<Scalar>& normal, const MotionFrame<Scalar>& frame) {
+    return moving.lowest(normal, frame) - detail::highest(corners, normal);
+  };
   const bool is_known = triangle.normal.squaredNorm() > Scalar(0);
-  if (is_known) {
-    plane.slack = moving.lowest(plane.normal, start) - detail::highest(corners, plane.normal);
-    const Scalar required = clearance.required(plane.slack);
-    if (!(detail::held_part(moving, corners, plane, start, end, required, true) < Scalar(1))) {
-      return {end.time, false, plane.normal};
-    }
+  Plane plane{triangle.normal, is_known ? slack_at(triangle.normal, start) : Scalar(0)};
+  bool touches = is_known && plane.slack < 2 * clearance.touching;
+  if (is_known && !(detail::held_part(moving, corners, plane, start, end, clearance.required(plane.slack), true) < Scalar(1))) {
+    return {end.time, false, plane.normal};
   }
-  const Plane last = query(end);
-  const Scalar last_at_start = moving.lowest(last.normal, start) - detail::highest(corners, last.normal);
-  {
-    const Scalar known = is_known ? std::max(plane.slack, last_at_start) : last_at_start;
+  Plane last = query(end, touches);
+  if (last.slack > -std::numeric_limits<Scalar>::infinity()) {
+    const Scalar known = std::max(slack_at(last.normal, start), is_known ? plane.slack : Scalar(0));
     const Scalar required = clearance.required(std::max(known, Scalar(0)));
     if (!(detail::held_part(moving, corners, last, end, start, required, false) < Scalar(1))) {
       return {end.time, false, last.normal};
     }
   }
-  if (!is_known || plane.slack < 2 * clearance.kept) {
-    const Plane first = query(start);
-    if (!is_known || first.slack > plane.slack) plane = first;
+  if (!is_known) {
+    plane = query(start, true);
+    touches = plane.slack < 2 * clearance.touching;
+    if (touches) last = query(end, true);
   }
   const Scalar required = clearance.required(plane.slack);
+  if (detail::turning_plane_holds(moving, corners, plane, start, last, end, required)) return {end.time, false, last.normal};
   const Scalar length = moving.length() * end.time;
   const Scalar resolution = triangle.is_exact ? clearance.resolution : std::max(clearance.resolution, length / 16);
   const int maximum_steps = triangle.is_exact ? 24 : 10;
@@ -142,11 +178,12 @@ Passage<typename Tool::Scalar> pass(const MovingTool<Tool>& moving, const Passed
       const MotionFrame<Scalar> near_end = moving.frame_at(frame.time + shorter);
       advance = std::max(advance, shorter * detail::held_part(moving, corners, plane, frame, near_end, required, true));
     }
-    if (!(advance < whole)) return {end.time, false, Vector3<Scalar>::Zero()};
+    if (!(advance < whole)) return {end.time, false, last.normal};
     const bool is_short = advance * moving.length() < resolution;
     frame = moving.frame_at(frame.time + advance);
     if (is_short) break;
-    plane = query(frame);
+    plane = query(frame, true);
+    if (detail::turning_plane_holds(moving, corners, plane, frame, last, end, required)) return {end.time, false, last.normal};
   }
   return {frame.time, true, plane.normal};
 }

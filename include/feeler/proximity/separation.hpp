@@ -15,18 +15,13 @@ Scalar touching_distance(Scalar size) noexcept {
   return rounding > Scalar(1e-8) ? rounding : Scalar(1e-8);
 }
 
-/// Separating plane of a tool and a triangle: max over unit n of min n·x − max n·y, x in the tool, y in the triangle.
-///
-/// Closest points (GJK) where the shapes are apart; every candidate axis where they touch or overlap, so the distance is negative by the
-/// least translation that parts them. In all cases the distance is proved by the normal returned with it.
-/// @param triangle  3×3, a corner a column, in the tool frame [m]; may be degenerate
+/// Separating plane of a tool and a triangle that touch or overlap, by trying every candidate axis; the distance is negative by the least
+/// translation that parts them.
+/// @param closest  what `gjk` said of them
 template <ConvexTool Tool>
-ClosestPoints<typename Tool::Scalar> separation(const Tool& tool, const Matrix3<typename Tool::Scalar>& triangle,
-                                                const ClosestFeatures& warm,
-                                                typename Tool::Scalar touching) noexcept {
+ClosestPoints<typename Tool::Scalar> separation_of_touching(const Tool& tool, const Matrix3<typename Tool::Scalar>& triangle,
+                                                            ClosestPoints<typename Tool::Scalar> closest) noexcept {
   using Scalar = typename Tool::Scalar;
-  ClosestPoints<Scalar> closest = gjk(tool, triangle, warm, touching);
-  if (!closest.is_touching) return closest;
   const SeparatingAxis<Scalar> axis = best_separating_axis(tool, triangle);
   // A segment along a degenerate triangle has no axis at all; then the last direction of the closest points stands.
   if (axis.distance == -std::numeric_limits<Scalar>::infinity()) {
@@ -39,6 +34,19 @@ ClosestPoints<typename Tool::Scalar> separation(const Tool& tool, const Matrix3<
   closest.tool_point = tool.vertex(tool.support(Vector3<Scalar>(-axis.normal)));
   closest.triangle_point = closest.tool_point - axis.distance * axis.normal;
   return closest;
+}
+
+/// Separating plane of a tool and a triangle: max over unit n of min n·x − max n·y, x in the tool, y in the triangle.
+///
+/// Closest points (GJK) where the shapes are apart, separating axes where they touch or overlap. The distance is proved by the normal
+/// returned with it.
+/// @param triangle  3×3, a corner a column, in the tool frame [m]; may be degenerate
+template <ConvexTool Tool>
+ClosestPoints<typename Tool::Scalar> separation(const Tool& tool, const Matrix3<typename Tool::Scalar>& triangle,
+                                                const ClosestFeatures& warm,
+                                                typename Tool::Scalar touching) noexcept {
+  const ClosestPoints<typename Tool::Scalar> closest = gjk(tool, triangle, warm, touching);
+  return closest.is_touching ? separation_of_touching(tool, triangle, closest) : closest;
 }
 
 }  // namespace feeler

@@ -163,7 +163,7 @@ class HapticRenderer {
           }
           trust_ = std::min(Working(settings_.trust_radius), 2 * trust_);
         } else if (!admit(result)) {
-          trust_ = length / 4;
+          trust_ = length * std::max(result.time, Working(1) / 4);
         }
       }
       if (tick_.work >= settings_.work_budget || trust_ < resting) break;
@@ -211,8 +211,7 @@ class HapticRenderer {
       Pair& pair = working_set_[i];
       const Matrix3<Working> corners =
           (axes.transpose() * (pair.corners_world.colwise() - pose.translation)).colwise() + reference_;
-      const auto closest = separation(tool_, corners, pair.features, clearance_.touching);
-      ++tick_.work;
+      const auto closest = closest_points(corners, axes, pair, is_certified);
       pair.features = closest.features;
       if (is_certified) {
         pair.normal = axes * closest.normal;
@@ -225,6 +224,20 @@ class HapticRenderer {
       }
     }
     tick_.rows = problem_.row_count();
+  }
+
+  /// Closest points of a pair. On the way the tool may overlap it; then the plane it had at the certified pose says which features meet.
+  ClosestPoints<Working> closest_points(const Matrix3<Working>& corners, const Matrix3<Working>& axes, const Pair& pair,
+                                        bool is_certified) noexcept {
+    ++tick_.work;
+    ClosestPoints<Working> closest = gjk(tool_, corners, pair.features, clearance_.touching);
+    if (!closest.is_touching) return closest;
+    if (is_certified || pair.slack < 2 * clearance_.touching) return separation_of_touching(tool_, corners, closest);
+    closest.normal = axes.transpose() * pair.normal;
+    closest.distance = separation_along(tool_, corners, closest.normal);
+    closest.features = {};
+    closest.tool_point = tool_.vertex(tool_.support(Vector3<Working>(-closest.normal)));
+    return closest;
   }
 
   SweepResult<Working> certify(const MovingTool& moving) noexcept {

@@ -103,21 +103,40 @@ class StepProblem {
     return true;
   }
 
-  /// H = ∇²f − Σ λₖ ∇²sₖ, with as much of the second term as leaves it positive definite.
+  /// H = ∇²f − Σ λₖ ∇²sₖ, made positive definite where it matters least.
+  ///
+  /// Across the active rows the step is fixed, so ½ρ(Jₖd − bₖ)² added for each changes nothing along them (augmented Lagrangian). Where H
+  /// has negative curvature along the rows too, the tool is about to slip off: there part of the metric takes its place.
   void set_lagrangian_hessian(const Metric<Scalar>& metric, const Twist<Scalar>& e) noexcept {
     Matrix6<Scalar> curvature = Matrix6<Scalar>::Zero();
+    Matrix6<Scalar> across = Matrix6<Scalar>::Zero();
+    Vector6<Scalar> pull = Vector6<Scalar>::Zero();
     for (const auto& active : solution_.active) {
+      const Vector6<Scalar>& row = problem_.rows[index(active.row)];
       curvature += active.multiplier * rows_[active.row].curvature();
+      across += row * row.transpose();
+      pull += problem_.bounds[index(active.row)] * row;
     }
     const Matrix6<Scalar> base = metric.hessian({});
-    const Matrix6<Scalar> own = metric.hessian(e);
-    for (const Scalar share : {Scalar(1), Scalar(1) / 2, Scalar(1) / 4}) {
-      problem_.hessian = share * (own - curvature) + (Scalar(1) - share) * base;
-      // Not flatter than a twentieth of the metric: a flatter one makes steps that no linearisation can carry.
-      const Eigen::LLT<Matrix6<Scalar>> factor(problem_.hessian - base / 20);
-      if (factor.info() == Eigen::Success) return;
+    const Matrix6<Scalar> lagrangian = metric.hessian(e) - curvature;
+    const Vector6<Scalar> gradient = problem_.gradient;
+    // Not flatter than a twentieth of the metric: a flatter one makes steps that no linearisation can carry.
+    for (const Scalar weight : {Scalar(0), Scalar(8), Scalar(64)}) {
+      problem_.hessian = lagrangian + weight * across;
+      if (!is_positive_definite(problem_.hessian - base / 20)) continue;
+      problem_.gradient = gradient - weight * pull;
+      return;
+    }
+    for (const Scalar share : {Scalar(1) / 2, Scalar(1) / 4}) {
+      problem_.hessian = share * lagrangian + (Scalar(1) - share) * base;
+      if (is_positive_definite(problem_.hessian - base / 20)) return;
     }
     problem_.hessian = base;
+  }
+
+  static bool is_positive_definite(const Matrix6<Scalar>& matrix) noexcept {
+    const Eigen::LLT<Matrix6<Scalar>> factor(matrix);
+    return factor.info() == Eigen::Success;
   }
 
   Solver solver_;
