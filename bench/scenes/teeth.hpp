@@ -9,7 +9,8 @@
 
 namespace feeler::scenes {
 
-/// The middle line of the dental arch, seen from above: a smooth curve through the crowns from the left molars to the right.
+/// The middle line of the dental arch, seen from above: a smooth curve through the crowns from the left
+/// molars to the right.
 class DentalArch {
  public:
   /// Place on the arch [m], z = 0. @param u  from −1 (left molar) through 0 (incisors) to 1
@@ -33,7 +34,8 @@ class DentalArch {
   }
 
  private:
-  // Read off the scan, in millimetres, from the middle incisors to the second molar; the other side mirrors it.
+  // Read off the scan, in millimetres, from the middle incisors to the second molar; the other side mirrors
+  // it.
   static constexpr std::array<std::array<double, 2>, 12> knots_{{{0.0, -20.4},
                                                                  {4.2, -20.2},
                                                                  {8.4, -18.8},
@@ -80,7 +82,11 @@ inline Scene lower_teeth(Points<double> vertices, Triangles triangles) {
   };
   const double above = bounds(scene.vertices, scene.triangles).max().z() + 0.004;
   const SurfacePath surface(
-      scene.vertices, scene.triangles, [=](double t) { return Ray{place(t), Vector::UnitZ()}; }, above, 10.0);
+      scene.vertices, scene.triangles,
+      [=](double t) {
+        return Ray{place(t), Vector::UnitZ()};
+      },
+      above, 10.0);
 
   scene.motion = [=](double t) {
     const double s = surface.folded(t);
@@ -89,7 +95,8 @@ inline Scene lower_teeth(Points<double> vertices, Triangles triangles) {
     const Vector cheek = arch.cheekward(u);
     const Vector along(-cheek.y(), cheek.x(), 0.0);
     const Vector lean = (0.25 + 0.25 * std::sin(2.9 * t)) * along + 0.2 * std::sin(3.7 * t) * cheek;
-    const Quaternion<double> rotation = exp_rotation(lean) * exp_rotation(Vector(0.0, 0.0, 0.5 * std::sin(2.0 * t)));
+    const Quaternion<double> rotation =
+        exp_rotation(lean) * exp_rotation(Vector(0.0, 0.0, 0.5 * std::sin(2.0 * t)));
     const double depth = 0.002 + 0.001 * std::sin(6.1 * t);
     const double a = approach(t);
     const double share = a * a * (3.0 - 2.0 * a);

@@ -18,9 +18,7 @@ test::CheckedTool checked_tool_of(const scenes::Scene& scene) {
 class RunChecker {
  public:
   RunChecker(const scenes::Scene& scene, const std::vector<TickRecord>& ticks)
-      : object_(scene.vertices, scene.triangles),
-        tool_(checked_tool_of(scene)),
-        ticks_(ticks) {}
+      : object_(scene.vertices, scene.triangles), tool_(checked_tool_of(scene)), ticks_(ticks) {}
 
   void check(std::size_t tick, Verification& result) const {
     const auto here = test::checked_pose(ticks_[tick].graphic);
@@ -42,7 +40,8 @@ class RunChecker {
       result.path_depth = deepest;
       result.path_tick = tick;
     }
-    if (deepest > Verification::tolerance + Verification::corner_share * motion(before, here)) ++result.crossings;
+    if (deepest > Verification::tolerance + Verification::corner_share * motion(before, here))
+      ++result.crossings;
   }
 
  private:
@@ -50,7 +49,8 @@ class RunChecker {
   double motion(const test::CheckedPose& before, const test::CheckedPose& here) const {
     double longest = 0.0;
     for (const test::WideVector& v : tool_.vertices) {
-      const test::WideVector moved = here.translation + here.rotation * v - before.translation - before.rotation * v;
+      const test::WideVector moved =
+          here.translation + here.rotation * v - before.translation - before.rotation * v;
       longest = std::max(longest, double(moved.norm()));
     }
     return longest;
