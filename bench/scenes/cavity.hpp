@@ -6,7 +6,8 @@
 namespace feeler::scenes {
 
 /// The inside of a box of 12 triangles and a cube of 20 mm that turns and slides in it.
-/// @param clearance  free height of the room above the cube's [m]; 0 is a perfect fit, less penetrates from the start
+/// @param clearance  free height of the room above the cube's [m]; 0 is a perfect fit, less penetrates from
+/// the start
 inline Scene cavity(double clearance = 1e-3) {
   constexpr double half = 0.010;
   const Vector room(0.02, half + clearance / 2.0, 0.015);

@@ -12,9 +12,11 @@ struct Grid {
   int x_cells, y_cells;
 };
 
-/// Fills `vertices` and `triangles` with z = height(x, y): two triangles a cell, counter-clockwise seen from above.
+/// Fills `vertices` and `triangles` with z = height(x, y): two triangles a cell, counter-clockwise seen from
+/// above.
 template <class Height>
-void mesh_height_field(const Grid& grid, const Height& height, Points<double>& vertices, Triangles& triangles) {
+void mesh_height_field(const Grid& grid, const Height& height, Points<double>& vertices,
+                       Triangles& triangles) {
   const int columns = grid.x_cells + 1;
   const int rows = grid.y_cells + 1;
   vertices.resize(Eigen::Index(columns) * rows, 3);

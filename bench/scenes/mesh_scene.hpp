@@ -21,12 +21,16 @@ inline Eigen::AlignedBox3d bounds(const Points<double>& vertices, const Triangle
 inline double reach(const Tool& tool, const Quaternion<double>& rotation, const Vector& direction) {
   const Vector direction_tool = rotation.conjugate() * direction;
   return std::visit(
-      [&](const auto& shape) { return direction_tool.dot(Vector(shape.vertex(shape.support(direction_tool)))); }, tool);
+      [&](const auto& shape) {
+        return direction_tool.dot(Vector(shape.vertex(shape.support(direction_tool))));
+      },
+      tool);
 }
 
 /// The vertex of a tool with the least z, in the tool frame [m]: with what it presses.
 inline Vector lowest_vertex(const Tool& tool) {
-  return std::visit([](const auto& shape) { return Vector(shape.vertex(shape.support(-Vector::UnitZ()))); }, tool);
+  return std::visit([](const auto& shape) { return Vector(shape.vertex(shape.support(-Vector::UnitZ()))); },
+                    tool);
 }
 
 /// Radius of the ball about the origin of the tool frame that holds the tool [m].
@@ -34,15 +38,18 @@ inline double radius(const Tool& tool) {
   return std::visit(
       [](const auto& shape) {
         double squared = 0.0;
-        for (int i = 0; i < shape.vertex_count(); ++i) squared = std::max(squared, Vector(shape.vertex(i)).squaredNorm());
+        for (int i = 0; i < shape.vertex_count(); ++i)
+          squared = std::max(squared, Vector(shape.vertex(i)).squaredNorm());
         return std::sqrt(squared);
       },
       tool);
 }
 
-/// The hand circles the centre of the object, its tool's −z axis towards it, and presses 1 to 5 mm into the outermost surface.
+/// The hand circles the centre of the object, its tool's −z axis towards it, and presses 1 to 5 mm into the
+/// outermost surface.
 ///
-/// Both are scaled to the object: a press is at most a tenth of its size, and the sweep never faster than about 0.15 m/s.
+/// Both are scaled to the object: a press is at most a tenth of its size, and the sweep never faster than
+/// about 0.15 m/s.
 /// @param vertices, triangles  the object, already in metres
 /// @param tool                 with its origin inside or near it
 inline Scene mesh_scene(std::string name, Points<double> vertices, Triangles triangles, Tool tool) {
@@ -67,7 +74,11 @@ inline Scene mesh_scene(std::string name, Points<double> vertices, Triangles tri
     return Vector(std::sin(theta) * std::cos(phi), std::sin(phi), std::cos(theta) * std::cos(phi));
   };
   const SurfacePath surface(
-      scene.vertices, scene.triangles, [=](double t) { return Ray{centre, outward(t)}; }, outside, 10.0);
+      scene.vertices, scene.triangles,
+      [=](double t) {
+        return Ray{centre, outward(t)};
+      },
+      outside, 10.0);
 
   scene.motion = [=, tool_copy = scene.tool](double t) {
     const double s = surface.folded(t);

@@ -18,9 +18,12 @@ inline Pose<double> pose_of(const Vector& rotation_vector, const Vector& positio
 }
 
 /// The ramp a = min(1, 2t) with which a hand comes down in the first half second.
-inline double approach(double t) { return std::min(1.0, 2.0 * t); }
+inline double approach(double t) {
+  return std::min(1.0, 2.0 * t);
+}
 
-/// Random numbers from raw mt19937 bits: the distributions of the standard library differ between its vendors.
+/// Random numbers from raw mt19937 bits: the distributions of the standard library differ between its
+/// vendors.
 class RandomBits {
  public:
   explicit RandomBits(std::uint32_t seed) : bits_(seed) {}
@@ -44,14 +47,16 @@ class RandomBits {
   std::mt19937 bits_;
 };
 
-/// The poses at t = 0, 1/rate, 2/rate, …: a motion at 1 kHz and the same one at 10 kHz differ in `rate` alone.
+/// The poses at t = 0, 1/rate, 2/rate, …: a motion at 1 kHz and the same one at 10 kHz differ in `rate`
+/// alone.
 inline std::vector<Pose<double>> sampled(const Motion& motion, double rate, int ticks) {
   std::vector<Pose<double>> poses(std::size_t(std::max(ticks, 0)));
   for (std::size_t i = 0; i < poses.size(); ++i) poses[i] = motion(double(i) / rate);
   return poses;
 }
 
-/// A device that fails: every seventh tick it jumps by up to 50 mm and 3 rad in random directions, one jump in sixteen by 10 m.
+/// A device that fails: every seventh tick it jumps by up to 50 mm and 3 rad in random directions, one jump
+/// in sixteen by 10 m.
 ///
 /// Deterministic: the jump is a function of the seed and of the number of the tick at `rate` [Hz].
 inline Motion hostile(Motion motion, std::uint32_t seed, double rate = 1000.0) {
@@ -69,7 +74,8 @@ inline Motion hostile(Motion motion, std::uint32_t seed, double rate = 1000.0) {
   };
 }
 
-/// A motion that begins elsewhere: from `start` it glides into `motion` within `seconds`, with no jump in velocity.
+/// A motion that begins elsewhere: from `start` it glides into `motion` within `seconds`, with no jump in
+/// velocity.
 inline Motion started_from(const Pose<double>& start, Motion motion, double seconds = 1.0) {
   return [start, motion = std::move(motion), seconds](double t) {
     const Pose<double> pose = motion(t);

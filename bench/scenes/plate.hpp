@@ -1,4 +1,5 @@
-// Plates of zero thickness, alone or as the walls of a tunnel, and a hand that crosses them fast: pop-through.
+// Plates of zero thickness, alone or as the walls of a tunnel, and a hand that crosses them fast:
+// pop-through.
 #pragma once
 
 #include <stdexcept>
@@ -47,7 +48,8 @@ inline Scene plate(double speed = 1.0) {
   return scene;
 }
 
-/// A tunnel along x of 2, 3 or 4 plates (floor and ceiling, then the sides), from which the device breaks out in all directions.
+/// A tunnel along x of 2, 3 or 4 plates (floor and ceiling, then the sides), from which the device breaks out
+/// in all directions.
 /// @param walls      2 to 4
 /// @param clearance  free space across each pair of walls [m]
 /// @param speed      of the device as it crosses a wall [m/s], 0.1 to 10

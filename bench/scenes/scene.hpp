@@ -23,20 +23,21 @@ using Motion = std::function<Pose<double>(double)>;
 
 /// An object and the motion of a hand; what the tool is, the types below add.
 struct Setting {
-  std::string name;         ///< one word, usable as a folder
-  std::string description;  ///< one sentence for a report
-  Points<double> vertices;  ///< of the object [m]
-  Triangles triangles;      ///< rows of `vertices`
-  Pose<double> start;       ///< free of collision; where the renderer is reset
-  Motion motion;            ///< of the device; motion(0) is `start`
+  std::string name;                               ///< one word, usable as a folder
+  std::string description;                        ///< one sentence for a report
+  Points<double> vertices;                        ///< of the object [m]
+  Triangles triangles;                            ///< rows of `vertices`
+  Pose<double> start;                             ///< free of collision; where the renderer is reset
+  Motion motion;                                  ///< of the device; motion(0) is `start`
   Vector3<double> tip = Vector3<double>::Zero();  ///< point of the tool to look at, in the tool frame [m]
-  double length = 0.01;     ///< L of the metric diag(1, 1, 1, L², L², L²) [m]
-  double duration = 10.0;   ///< of a full run [s]
+  double length = 0.01;                           ///< L of the metric diag(1, 1, 1, L², L², L²) [m]
+  double duration = 10.0;                         ///< of a full run [s]
 
   /// K = 1000 N/m × M: the stiffness at which figures are compared.
   Stiffness<double> stiffness() const { return Stiffness<double>::uniform(1000.0, 1000.0 * length * length); }
 
-  /// The library's defaults with the stiffness of the scene; the reference point is the origin of the tool frame.
+  /// The library's defaults with the stiffness of the scene; the reference point is the origin of the tool
+  /// frame.
   Settings<double> settings() const {
     Settings<double> settings;
     settings.stiffness = stiffness();

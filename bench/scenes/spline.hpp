@@ -46,7 +46,8 @@ inline std::vector<Points<double>> spline_shaft(const SplineProfile& profile, do
   return pieces;
 }
 
-/// The hole: rings of the profile from z = 0 down to −depth, and a flat collar at z = 0; normals point into the free space.
+/// The hole: rings of the profile from z = 0 down to −depth, and a flat collar at z = 0; normals point into
+/// the free space.
 inline void add_spline_hole(Setting& scene, const SplineProfile& profile, double depth, int bands) {
   constexpr int ring = 4 * SplineProfile::teeth;
   std::vector<Vector> vertices;

@@ -1,4 +1,5 @@
-// The paper's contact switches (Fig. 12 and 13): a line-shaped tool over a profile of convex and concave edges.
+// The paper's contact switches (Fig. 12 and 13): a line-shaped tool over a profile of convex and concave
+// edges.
 #pragma once
 
 #include <array>

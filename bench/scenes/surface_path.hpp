@@ -15,7 +15,8 @@ struct Ray {
   Vector outward;
 };
 
-/// Distance from the ray's origin to its outermost crossing with the object [m]; −infinity where there is none.
+/// Distance from the ray's origin to its outermost crossing with the object [m]; −infinity where there is
+/// none.
 /// @cost every triangle
 inline double outermost_crossing(const Points<double>& vertices, const Triangles& triangles, const Ray& ray) {
   double outermost = -std::numeric_limits<double>::infinity();
@@ -37,17 +38,19 @@ inline double outermost_crossing(const Points<double>& vertices, const Triangles
   return outermost;
 }
 
-/// Heights of a surface along a moving ray: cast once at regular times, averaged, then joined by cubic curves.
+/// Heights of a surface along a moving ray: cast once at regular times, averaged, then joined by cubic
+/// curves.
 ///
-/// A hand has mass, so it smooths what it follows; and a motion must be cheap when the servo loop asks for it.
+/// A hand has mass, so it smooths what it follows; and a motion must be cheap when the servo loop asks for
+/// it.
 class SurfacePath {
  public:
   /// @param ray_at    the ray at a time [s]
   /// @param fallback  height where a ray misses the object before it ever hit it [m]
   /// @param duration  after it the path runs backwards [s]
   template <class RayAt>
-  SurfacePath(const Points<double>& vertices, const Triangles& triangles, const RayAt& ray_at, double fallback,
-              double duration)
+  SurfacePath(const Points<double>& vertices, const Triangles& triangles, const RayAt& ray_at,
+              double fallback, double duration)
       : duration_(duration) {
     const int knots = int(std::ceil(duration / spacing)) + 1;
     std::vector<double> cast(std::size_t(knots), fallback);
@@ -73,8 +76,9 @@ class SurfacePath {
     const auto knot = [&](int k) { return heights_[std::size_t(std::clamp(k, 0, last))]; };
     const double before = knot(i - 1), from = knot(i), to = knot(i + 1), after = knot(i + 2);
     return from + 0.5 * s *
-                      (to - before + s * (2.0 * before - 5.0 * from + 4.0 * to - after +
-                                          s * (3.0 * (from - to) + after - before)));
+                      (to - before +
+                       s * (2.0 * before - 5.0 * from + 4.0 * to - after +
+                            s * (3.0 * (from - to) + after - before)));
   }
 
  private:

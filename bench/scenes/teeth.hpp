@@ -9,7 +9,8 @@
 
 namespace feeler::scenes {
 
-/// The middle line of the dental arch, seen from above: a smooth curve through the crowns from the left molars to the right.
+/// The middle line of the dental arch, seen from above: a smooth curve through the crowns from the left
+/// molars to the right.
 class DentalArch {
  public:
   /// Place on the arch [m], z = 0. @param u  from −1 (left molar) through 0 (incisors) to 1
@@ -33,19 +34,20 @@ class DentalArch {
   }
 
  private:
-  // Read off the scan, in millimetres, from the middle incisors to the second molar; the other side mirrors it.
-  static constexpr std::array<std::array<double, 2>, 12> knots_{{{0.0, -21.2},
-                                                                 {4.2, -21.0},
-                                                                 {8.4, -20.0},
-                                                                 {11.8, -17.9},
-                                                                 {14.5, -14.9},
-                                                                 {16.0, -11.1},
-                                                                 {17.4, -6.3},
-                                                                 {18.3, -1.1},
+  // Read off the scan, in millimetres, from the middle incisors to the second molar; the other side mirrors
+  // it.
+  static constexpr std::array<std::array<double, 2>, 12> knots_{{{0.0, -20.4},
+                                                                 {4.2, -20.2},
+                                                                 {8.4, -18.8},
+                                                                 {11.5, -16.5},
+                                                                 {14.0, -13.0},
+                                                                 {15.6, -9.2},
+                                                                 {17.0, -4.8},
+                                                                 {18.2, -0.3},
                                                                  {19.7, 4.2},
-                                                                 {21.0, 6.9},
+                                                                 {21.0, 7.6},
                                                                  {22.1, 13.0},
-                                                                 {23.5, 20.4}}};
+                                                                 {23.5, 18.5}}};
 
   Eigen::Vector2d knot(int i) const {
     const auto& k = knots_[std::size_t(std::clamp(std::abs(i), 0, int(knots_.size()) - 1))];
@@ -60,7 +62,7 @@ inline Points<double> teeth_vertices(const Points<double>& scan) {
   return vertices * 2.1e-4;
 }
 
-/// The probe sweeps along the arch, weaves across the crowns from gum to gum, and presses 0.5 to 2.5 mm.
+/// The probe sweeps along the arch, weaves across the crowns from gum to gum, and presses 1 to 3 mm.
 /// @param vertices, triangles  the jaw in metres, z up, as from `teeth_vertices`
 inline Scene lower_teeth(Points<double> vertices, Triangles triangles) {
   Scene scene;
@@ -74,12 +76,17 @@ inline Scene lower_teeth(Points<double> vertices, Triangles triangles) {
   const DentalArch arch;
   const auto place = [arch](double t) {
     const double u = 0.95 * std::sin(0.45 * t);
-    const double across = 0.0008 + 0.0045 * std::sin(5.3 * t);
+    // Incisors are narrow, molars wide.
+    const double across = 0.0002 + (0.0014 + 0.0024 * std::abs(u)) * std::sin(5.3 * t);
     return Vector(arch.at(u) + across * arch.cheekward(u));
   };
   const double above = bounds(scene.vertices, scene.triangles).max().z() + 0.004;
   const SurfacePath surface(
-      scene.vertices, scene.triangles, [=](double t) { return Ray{place(t), Vector::UnitZ()}; }, above, 10.0);
+      scene.vertices, scene.triangles,
+      [=](double t) {
+        return Ray{place(t), Vector::UnitZ()};
+      },
+      above, 10.0);
 
   scene.motion = [=](double t) {
     const double s = surface.folded(t);
@@ -88,8 +95,9 @@ inline Scene lower_teeth(Points<double> vertices, Triangles triangles) {
     const Vector cheek = arch.cheekward(u);
     const Vector along(-cheek.y(), cheek.x(), 0.0);
     const Vector lean = (0.25 + 0.25 * std::sin(2.9 * t)) * along + 0.2 * std::sin(3.7 * t) * cheek;
-    const Quaternion<double> rotation = exp_rotation(lean) * exp_rotation(Vector(0.0, 0.0, 0.5 * std::sin(2.0 * t)));
-    const double depth = 0.0015 + 0.001 * std::sin(6.1 * t);
+    const Quaternion<double> rotation =
+        exp_rotation(lean) * exp_rotation(Vector(0.0, 0.0, 0.5 * std::sin(2.0 * t)));
+    const double depth = 0.002 + 0.001 * std::sin(6.1 * t);
     const double a = approach(t);
     const double share = a * a * (3.0 - 2.0 * a);
     Vector point = place(s);

@@ -21,13 +21,14 @@ inline Scene terrain(int cells = 71, std::uint32_t seed = 1) {
   Scene scene;
   scene.name = "terrain";
   scene.description = "The convex hull of 32 points presses and rolls over bumps of three sizes.";
-  mesh_height_field({-0.1, 0.1, -0.1, 0.1, cells, cells},
-                    [](double x, double y) {
-                      return 0.002 * std::sin(180.0 * x) * std::cos(150.0 * y) +
-                             0.0006 * std::sin(900.0 * x + 1.0) * std::sin(800.0 * y) +
-                             0.00008 * std::sin(6000.0 * x) * std::sin(5200.0 * y);
-                    },
-                    scene.vertices, scene.triangles);
+  mesh_height_field(
+      {-0.1, 0.1, -0.1, 0.1, cells, cells},
+      [](double x, double y) {
+        return 0.002 * std::sin(180.0 * x) * std::cos(150.0 * y) +
+               0.0006 * std::sin(900.0 * x + 1.0) * std::sin(800.0 * y) +
+               0.00008 * std::sin(6000.0 * x) * std::sin(5200.0 * y);
+      },
+      scene.vertices, scene.triangles);
   scene.tool = pebble(seed);
   scene.motion = [](double t) {
     return pose_of({0.4 * std::sin(4.5 * t), 0.4 * std::sin(3.9 * t), 0.6 * std::sin(2.0 * t)},

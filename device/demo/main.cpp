@@ -19,14 +19,15 @@ constexpr int success = 0, penetrated = 1, bad_input = 2, failure = 3;
 constexpr double checking_seconds = 15.0;
 
 void print_progress(const Progress& p) {
-  std::printf("  %6.2f s   %7.1f Hz   %8.1f µs a tick   %2d contacts   %6.2f N   %lld missed\n", p.time, p.rate,
-              p.microseconds, p.contacts, p.force, static_cast<long long>(p.missed));
+  std::printf("  %6.2f s   %7.1f Hz   %8.1f µs a tick   %2d contacts   %6.2f N   %lld missed\n", p.time,
+              p.rate, p.microseconds, p.contacts, p.force, static_cast<long long>(p.missed));
   std::fflush(stdout);
 }
 
 void print_table(const Summary& summary) {
   std::printf("\n");
-  for (const auto& [name, value] : table_of(summary)) std::printf("  %-28s %s\n", name.c_str(), value.c_str());
+  for (const auto& [name, value] : table_of(summary))
+    std::printf("  %-28s %s\n", name.c_str(), value.c_str());
 }
 
 /// Runs one scene from start to report.
@@ -38,7 +39,8 @@ int run_scene(const ChosenScene& chosen, const Options& options, const std::file
               static_cast<long long>(scene.triangles.rows()));
 
   const Recording recording = run_session(scene, session, print_progress);
-  for (const std::string& refusal : recording.servo.setup.refused) std::printf("  note: %s\n", refusal.c_str());
+  for (const std::string& refusal : recording.servo.setup.refused)
+    std::printf("  note: %s\n", refusal.c_str());
   std::printf("  checking every triangle at the poses and between them …\n");
   std::fflush(stdout);
   const Verification verification = verify(scene, recording.ticks, checking_seconds);

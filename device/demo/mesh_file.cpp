@@ -40,7 +40,8 @@ class MeshGatherer {
   }
 
   Mesh mesh(double scale) const {
-    Mesh mesh{Points<double>(Eigen::Index(vertices_.size()), 3), Triangles(Eigen::Index(triangles_.size()), 3)};
+    Mesh mesh{Points<double>(Eigen::Index(vertices_.size()), 3),
+              Triangles(Eigen::Index(triangles_.size()), 3)};
     for (std::size_t i = 0; i < vertices_.size(); ++i) {
       mesh.vertices.row(Eigen::Index(i)) = scale * vertices_[i].transpose();
     }

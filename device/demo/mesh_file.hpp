@@ -13,10 +13,12 @@ struct Mesh {
   Triangles triangles;
 };
 
-/// Reads all meshes of a file as one, each where its node puts it; polygons are cut into triangles, corners that coincide are joined.
+/// Reads all meshes of a file as one, each where its node puts it; polygons are cut into triangles, corners
+/// that coincide are joined.
 ///
 /// @param scale  metres a unit of the file
-/// @throws BadInput for a file that is missing, empty, unreadable, without triangles, or with a coordinate that is not finite
+/// @throws BadInput for a file that is missing, empty, unreadable, without triangles, or with a coordinate
+/// that is not finite
 Mesh load_mesh(const std::filesystem::path& file, double scale);
 
 }  // namespace feeler::demo

@@ -26,8 +26,9 @@ void validate(const Options& options) {
   require(within(options.triangles, 2, 4e6), "--triangles must be between 2 and 4000000.");
   require(within(options.rate, 10.0, 2e4), "--rate must be between 10 and 20000 Hz.");
   require(within(options.seconds, 0.01, 3600.0), "--seconds must be between 0.01 and 3600.");
-  require(options.rate * options.seconds <= maximum_ticks,
-          "--rate times --seconds is more than 5 million ticks: every tick is kept in memory, so ask for fewer.");
+  require(
+      options.rate * options.seconds <= maximum_ticks,
+      "--rate times --seconds is more than 5 million ticks: every tick is kept in memory, so ask for fewer.");
   require(!options.start || options.start->allFinite(), "--start must be three finite numbers, in metres.");
   const bool has_file = options.object || options.tool || options.start;
   require(!has_file || !options.scene || *options.scene == "file",
@@ -41,13 +42,15 @@ CommandLine read_command_line(int argument_count, const char* const* arguments) 
   Options& options = result.options;
   std::vector<double> start;
 
-  CLI::App app("Renders rigid contact to a simulated 6-DOF haptic device and writes a report that anybody can check.",
-               "feeler-demo");
+  CLI::App app(
+      "Renders rigid contact to a simulated 6-DOF haptic device and writes a report that anybody can check.",
+      "feeler-demo");
   app.set_version_flag("--version", FEELER_VERSION);
   app.add_option("--scene", options.scene, "default: cavity, steps and a real mesh, one after the other")
       ->check(CLI::IsMember({"cavity", "steps", "terrain", "plate", "sulcus", "file"}));
   app.add_option("--object", options.object, "mesh file of the object: STL, OBJ, PLY or OFF");
-  app.add_option("--tool", options.tool, "mesh file of the tool; its convex hull is taken (default: a slender probe)");
+  app.add_option("--tool", options.tool,
+                 "mesh file of the tool; its convex hull is taken (default: a slender probe)");
   app.add_option("--scale", options.scale, "metres a unit of both files")->capture_default_str();
   app.add_option("--start", start, "where the tool of --scene file begins [m] (default: outside the object)")
       ->type_name("X,Y,Z")

@@ -13,17 +13,17 @@ namespace feeler::demo {
 
 /// The command line; every value is in range.
 struct Options {
-  std::optional<std::string> scene;           ///< unset: cavity, steps and a real mesh, one after the other
+  std::optional<std::string> scene;             ///< unset: cavity, steps and a real mesh, one after the other
   std::optional<std::filesystem::path> object;  ///< of the scene `file`
   std::optional<std::filesystem::path> tool;    ///< of the scene `file`; its convex hull is taken
-  double scale = 1.0;                         ///< metres a unit of both files
-  std::optional<Vector3<double>> start;       ///< of the scene `file`: where the tool begins [m]
-  double clearance = 1e-3;                    ///< of the cavity [m]
-  int triangles = 10082;                      ///< of the terrain, about
-  double rate = 1000.0;                       ///< of the servo loop [Hz]
-  double seconds = 8.0;                       ///< a scene
-  std::uint32_t seed = 1;                     ///< of everything random
-  std::optional<std::filesystem::path> out;   ///< unset: `out/`, a folder a scene in it
+  double scale = 1.0;                           ///< metres a unit of both files
+  std::optional<Vector3<double>> start;         ///< of the scene `file`: where the tool begins [m]
+  double clearance = 1e-3;                      ///< of the cavity [m]
+  int triangles = 10082;                        ///< of the terrain, about
+  double rate = 1000.0;                         ///< of the servo loop [Hz]
+  double seconds = 8.0;                         ///< a scene
+  std::uint32_t seed = 1;                       ///< of everything random
+  std::optional<std::filesystem::path> out;     ///< unset: `out/`, a folder a scene in it
 };
 
 /// What the command line comes to: options to run with, or an exit code where it only asked for help.

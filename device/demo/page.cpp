@@ -46,10 +46,14 @@ std::string content_of(const std::filesystem::path& file) {
 std::string escaped(const std::string& text) {
   std::string result;
   for (char c : text) {
-    if (c == '&') result += "&amp;";
-    else if (c == '<') result += "&lt;";
-    else if (c == '>') result += "&gt;";
-    else result += c;
+    if (c == '&')
+      result += "&amp;";
+    else if (c == '<')
+      result += "&lt;";
+    else if (c == '>')
+      result += "&gt;";
+    else
+      result += c;
   }
   return result;
 }
@@ -69,11 +73,12 @@ std::string base64(const std::string& bytes) {
   return result;
 }
 
-/// A drawing where it is small, a picture where it is not: a browser takes seconds for a hundred thousand polygons.
+/// A drawing where it is small, a picture where it is not: a browser takes seconds for a hundred thousand
+/// polygons.
 std::string figure_html(const std::filesystem::path& folder, const Figure& figure) {
   constexpr std::size_t large = 2000000;
   std::string drawing = content_of(folder / (figure.name + ".svg"));
-  if (drawing.size() > large) {
+  if (drawing.empty() || drawing.size() > large) {
     return "<img alt=\"" + figure.name + "\" src=\"data:image/png;base64," +
            base64(content_of(folder / (figure.name + ".png"))) + "\">";
   }
@@ -83,12 +88,13 @@ std::string figure_html(const std::filesystem::path& folder, const Figure& figur
 
 }  // namespace
 
-void write_page(const std::filesystem::path& file, const std::filesystem::path& folder, const scenes::Scene& scene,
-                const Summary& summary, const std::vector<Figure>& figures) {
+void write_page(const std::filesystem::path& file, const std::filesystem::path& folder,
+                const scenes::Scene& scene, const Summary& summary, const std::vector<Figure>& figures) {
   TextFile text(file);
   text.write(head);
-  text.write("<title>Feeler: " + escaped(scene.name) + "</title></head><body><main>\n<h1>" + escaped(scene.name) + "</h1>\n<p>" +
-             escaped(scene.description) + " " + std::to_string(scene.triangles.rows()) + " triangles.</p>\n");
+  text.write("<title>Feeler: " + escaped(scene.name) + "</title></head><body><main>\n<h1>" +
+             escaped(scene.name) + "</h1>\n<p>" + escaped(scene.description) + " " +
+             std::to_string(scene.triangles.rows()) + " triangles.</p>\n");
   text.write(summary.verification.penetrated()
                  ? "<div class=\"verdict penetrated\">The tool penetrated the object.</div>\n"
                  : "<div class=\"verdict free\">No penetration found.</div>\n");
@@ -99,11 +105,12 @@ void write_page(const std::filesystem::path& file, const std::filesystem::path& 
   text.write("</table>\n");
   if (figures.empty()) text.write("<p>No figures: gnuplot was not found when this report was written.</p>\n");
   for (const Figure& figure : figures) {
-    text.write("<figure>" + figure_html(folder, figure) + "<figcaption>" + escaped(figure.caption) + "</figcaption></figure>\n");
+    text.write("<figure>" + figure_html(folder, figure) + "<figcaption>" + escaped(figure.caption) +
+               "</figcaption></figure>\n");
   }
   text.write(how_to_judge);
-  text.write("<h2>Settings</h2>\n<details><summary>scene.json</summary><pre>" + escaped(content_of(folder / "scene.json")) +
-             "</pre></details>\n</main></body></html>\n");
+  text.write("<h2>Settings</h2>\n<details><summary>scene.json</summary><pre>" +
+             escaped(content_of(folder / "scene.json")) + "</pre></details>\n</main></body></html>\n");
   text.close();
 }
 

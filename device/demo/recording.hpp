@@ -30,9 +30,7 @@ struct Recording {
   ServoReport servo;
   double wall_seconds = 0.0;  ///< from the first tick to the last
 
-  double achieved_rate() const {
-    return wall_seconds > 0.0 ? double(ticks.size() - 1) / wall_seconds : 0.0;
-  }
+  double achieved_rate() const { return wall_seconds > 0.0 ? double(ticks.size() - 1) / wall_seconds : 0.0; }
 };
 
 }  // namespace feeler::demo

@@ -21,7 +21,9 @@ namespace {
 
 using nlohmann::ordered_json;
 
-ordered_json json_of(const Vector3<double>& v) { return {v.x(), v.y(), v.z()}; }
+ordered_json json_of(const Vector3<double>& v) {
+  return {v.x(), v.y(), v.z()};
+}
 ordered_json json_of(const Pose<double>& pose) {
   const auto& q = pose.rotation;
   return {{"position", json_of(pose.translation)}, {"quaternion_wxyz", {q.w(), q.x(), q.y(), q.z()}}};
@@ -48,8 +50,8 @@ void write_ticks(const std::filesystem::path& file, const std::vector<TickRecord
     text.print("%.17g", tick.time);
     print_pose(tick.haptic);
     print_pose(tick.graphic);
-    text.print(",%.17g,%.17g,%.17g,%.17g,%.17g,%.17g,%d,%d,%d,%d,%.17g\n", f.x(), f.y(), f.z(), t.x(), t.y(), t.z(),
-               tick.contacts, tick.rows, tick.iterations, int(tick.converged), tick.microseconds);
+    text.print(",%.17g,%.17g,%.17g,%.17g,%.17g,%.17g,%d,%d,%d,%d,%.17g\n", f.x(), f.y(), f.z(), t.x(), t.y(),
+               t.z(), tick.contacts, tick.rows, tick.iterations, int(tick.converged), tick.microseconds);
   }
   text.close();
 }
@@ -116,6 +118,8 @@ ordered_json results_json(const Summary& s) {
             {"deepest_at_poses_tick", v.pose_tick},
             {"deepest_on_path_m", v.path_depth},
             {"deepest_on_path_tick", v.path_tick},
+            {"corner_share", Verification::corner_share},
+            {"crossings", v.crossings},
             {"checked_poses", v.checked_poses},
             {"checked_ways", v.checked_ways},
             {"samples_a_way", v.samples},
@@ -126,28 +130,34 @@ ordered_json results_json(const Summary& s) {
 void write_scene(const std::filesystem::path& file, const Run& run) {
   const scenes::Scene& scene = run.chosen.scene;
   const RealTimeSetup& setup = run.recording.servo.setup;
-  const ordered_json json = {
-      {"scene", scene.name},
-      {"description", scene.description},
-      {"object", {{"source", run.chosen.object_source}, {"triangles", scene.triangles.rows()}, {"vertices", scene.vertices.rows()}}},
-      {"tool", {{"source", run.chosen.tool_source}}},
-      {"start", json_of(scene.start)},
-      {"rate_Hz", run.session.rate},
-      {"seconds", run.session.seconds},
-      {"seed", run.session.seed},
-      {"renderer", renderer_json(scene)},
-      {"device", device_json(run.session)},
-      {"build",
-       {{"version", FEELER_VERSION}, {"commit", build_commit}, {"compiler", build_compiler}, {"type", build_type}, {"flags", build_flags}}},
-      {"machine",
-       {{"processor", processor_name()},
-        {"kernel", setup.kernel},
-        {"preempt_rt", setup.is_preempt_rt},
-        {"scheduler", setup.policy},
-        {"priority", setup.priority},
-        {"memory_locked", setup.is_memory_locked},
-        {"refused", setup.refused}}},
-      {"results", results_json(run.summary)}};
+  const ordered_json json = {{"scene", scene.name},
+                             {"description", scene.description},
+                             {"object",
+                              {{"source", run.chosen.object_source},
+                               {"triangles", scene.triangles.rows()},
+                               {"vertices", scene.vertices.rows()}}},
+                             {"tool", {{"source", run.chosen.tool_source}}},
+                             {"start", json_of(scene.start)},
+                             {"rate_Hz", run.session.rate},
+                             {"seconds", run.session.seconds},
+                             {"seed", run.session.seed},
+                             {"renderer", renderer_json(scene)},
+                             {"device", device_json(run.session)},
+                             {"build",
+                              {{"version", FEELER_VERSION},
+                               {"commit", build_commit},
+                               {"compiler", build_compiler},
+                               {"type", build_type},
+                               {"flags", build_flags}}},
+                             {"machine",
+                              {{"processor", processor_name()},
+                               {"kernel", setup.kernel},
+                               {"preempt_rt", setup.is_preempt_rt},
+                               {"scheduler", setup.policy},
+                               {"priority", setup.priority},
+                               {"memory_locked", setup.is_memory_locked},
+                               {"refused", setup.refused}}},
+                             {"results", results_json(run.summary)}};
   TextFile text(file);
   text.write(json.dump(2) + "\n");
   text.close();
@@ -165,10 +175,12 @@ std::filesystem::path topmost_missing(std::filesystem::path path) {
 
 }  // namespace
 
-ReportFolder::ReportFolder(const std::filesystem::path& target) : target_(std::filesystem::absolute(target).lexically_normal()) {
+ReportFolder::ReportFolder(const std::filesystem::path& target)
+    : target_(std::filesystem::absolute(target).lexically_normal()) {
   if (!target_.has_filename()) target_ = target_.parent_path();
   std::error_code error;
-  const bool is_replaceable = !std::filesystem::exists(target_) || std::filesystem::is_empty(target_, error) ||
+  const bool is_replaceable = !std::filesystem::exists(target_) ||
+                              std::filesystem::is_empty(target_, error) ||
                               std::filesystem::exists(target_ / "scene.json");
   if (!is_replaceable || error) {
     throw BadInput(target_.string() + " exists and is no report of this program: choose another --out.");
@@ -178,7 +190,8 @@ ReportFolder::ReportFolder(const std::filesystem::path& target) : target_(std::f
   created_parent_ = topmost_missing(target_.parent_path());
   std::filesystem::create_directories(partial_, error);
   if (error) {
-    throw BadInput("The folder " + target_.string() + " cannot be made (" + error.message() + "): choose another --out.");
+    throw BadInput("The folder " + target_.string() + " cannot be made (" + error.message() +
+                   "): choose another --out.");
   }
 }
 
@@ -187,7 +200,8 @@ ReportFolder::~ReportFolder() {
   if (!std::filesystem::exists(partial_, error)) return;
   std::filesystem::remove_all(partial_, error);
   // Parents made for this report go with it, unless something else is in them by now.
-  for (std::filesystem::path parent = target_.parent_path(); !created_parent_.empty(); parent = parent.parent_path()) {
+  for (std::filesystem::path parent = target_.parent_path(); !created_parent_.empty();
+       parent = parent.parent_path()) {
     if (!std::filesystem::remove(parent, error) || parent == created_parent_) break;
   }
 }

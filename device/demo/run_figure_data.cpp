@@ -13,9 +13,9 @@ namespace {
 
 using Vector = Vector3<double>;
 
-constexpr std::size_t most_triangles = 40000;
+constexpr std::size_t most_triangles = 60000;
 constexpr std::size_t most_points = 4000;
-constexpr Eigen::Index few_triangles = 50000;
+constexpr Eigen::Index few_triangles = 30000;  // fewer are drawn whole, more only around the ways
 
 /// From the scene to the eye, unit.
 Vector to_eye() {
@@ -24,7 +24,8 @@ Vector to_eye() {
   return {std::sin(tilt) * std::sin(turn), -std::sin(tilt) * std::cos(turn), std::cos(tilt)};
 }
 
-/// Brightness in [0, 1] of a triangle seen from the eye, lit from above its left shoulder; both sides are alike.
+/// Brightness in [0, 1] of a triangle seen from the eye, lit from above its left shoulder; both sides are
+/// alike.
 double brightness(const std::array<Vector, 3>& corners) {
   Vector normal = (corners[1] - corners[0]).cross(corners[2] - corners[0]).normalized();
   if (normal.dot(to_eye()) < 0.0) normal = -normal;
@@ -50,7 +51,8 @@ void RunFigureData::write_object(const std::filesystem::path& file) {
     return Vector(1e3 * scene_.vertices.row(scene_.triangles(triangle, k)).transpose());
   };
   const double around = 0.25 * box_.sizes().maxCoeff() + 5.0;
-  const Eigen::AlignedBox3d near_box((box_.min().array() - around).matrix(), (box_.max().array() + around).matrix());
+  const Eigen::AlignedBox3d near_box((box_.min().array() - around).matrix(),
+                                     (box_.max().array() + around).matrix());
   std::vector<Eigen::Index> near;
   for (Eigen::Index i = 0; i < scene_.triangles.rows(); ++i) {
     if (scene_.triangles.rows() < few_triangles || near_box.contains(corner(i, 0))) near.push_back(i);
@@ -82,9 +84,10 @@ void RunFigureData::write_ways_and_tools(const std::filesystem::path& file) {
   for (std::size_t i = 0; i < ticks_.size(); i += stride) {
     write(1e3 * (ticks_[i].haptic * scene_.tip), 1e3 * (ticks_[i].graphic * scene_.tip));
   }
-  const auto peak = std::max_element(ticks_.begin(), ticks_.end(), [](const TickRecord& a, const TickRecord& b) {
-    return a.wrench.force.squaredNorm() < b.wrench.force.squaredNorm();
-  });
+  const auto peak =
+      std::max_element(ticks_.begin(), ticks_.end(), [](const TickRecord& a, const TickRecord& b) {
+        return a.wrench.force.squaredNorm() < b.wrench.force.squaredNorm();
+      });
   for (const Pose<double>& pose : {peak->haptic, peak->graphic}) {
     text.print("\n\n");
     std::visit(

@@ -10,14 +10,16 @@
 
 namespace feeler::demo {
 
-/// Writes run_object.dat (triangles as pairs of lines, with their brightness) and run.dat (way of the haptic and the graphic tip; edges of
-/// the haptic tool; edges of the graphic tool, both at the peak force), all in millimetres.
+/// Writes run_object.dat (triangles as pairs of lines, with their brightness) and run.dat (way of the haptic
+/// and the graphic tip; edges of the haptic tool; edges of the graphic tool, both at the peak force), all in
+/// millimetres.
 class RunFigureData {
  public:
   /// Where the picture is looked at from [degrees], as gnuplot's `set view`.
   static constexpr double tilt = 52.0, turn = 28.0;
 
-  RunFigureData(const std::filesystem::path& folder, const scenes::Scene& scene, const std::vector<TickRecord>& ticks);
+  RunFigureData(const std::filesystem::path& folder, const scenes::Scene& scene,
+                const std::vector<TickRecord>& ticks);
 
   const Eigen::AlignedBox3d& box() const { return box_; }  ///< of all that is drawn [mm]
   std::size_t drawn_triangles() const { return drawn_; }

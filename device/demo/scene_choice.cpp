@@ -36,14 +36,15 @@ ChosenScene best_real_mesh(const Options& options) {
   for (const std::filesystem::path& file : {beside, std::filesystem::path(teeth_mesh_file)}) {
     if (!std::filesystem::exists(file)) continue;
     Mesh mesh = load_mesh(file, 1.0);
-    return {scenes::lower_teeth(scenes::teeth_vertices(mesh.vertices), std::move(mesh.triangles)), file.string(),
-            formula};
+    return {scenes::lower_teeth(scenes::teeth_vertices(mesh.vertices), std::move(mesh.triangles)),
+            file.string(), formula};
   }
   if (std::filesystem::exists(packaged_mesh_file)) {
     Mesh mesh = load_mesh(packaged_mesh_file, 1.0);
     const double size = scenes::bounds(mesh.vertices, mesh.triangles).sizes().maxCoeff();
     mesh.vertices *= 0.1 / size;
-    return {scenes::mesh_scene("mesh", std::move(mesh.vertices), std::move(mesh.triangles), scenes::slender_probe()),
+    return {scenes::mesh_scene("mesh", std::move(mesh.vertices), std::move(mesh.triangles),
+                               scenes::slender_probe()),
             packaged_mesh_file, formula};
   }
   return {scenes::terrain(71, options.seed), formula, formula};

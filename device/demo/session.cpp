@@ -33,13 +33,14 @@ void watch(ServoLoop& loop, LatestValue<Snapshot>& latest, const ProgressSink& r
   auto last_time = SteadyClock::now();
   std::int64_t last_ticks = 0;
   while (loop.is_running()) {
-    for (int i = 0; i < 25 && loop.is_running(); ++i) std::this_thread::sleep_for(std::chrono::milliseconds(20));
+    for (int i = 0; i < 25 && loop.is_running(); ++i)
+      std::this_thread::sleep_for(std::chrono::milliseconds(20));
     Snapshot snapshot;
     if (!latest.fetch(snapshot)) continue;
     const auto now = SteadyClock::now();
     const std::int64_t ticks = loop.ticks();
-    report({snapshot.time, double(ticks - last_ticks) / seconds_between(last_time, now), snapshot.microseconds,
-            snapshot.contacts, snapshot.force, loop.missed()});
+    report({snapshot.time, double(ticks - last_ticks) / seconds_between(last_time, now),
+            snapshot.microseconds, snapshot.contacts, snapshot.force, loop.missed()});
     last_time = now;
     last_ticks = ticks;
   }
@@ -52,14 +53,17 @@ Recording run(const scenes::Scene& scene, const Tool& tool, const SessionSetting
   HapticRenderer renderer(object, tool, scene.settings());
   // A renderer is not the judge of its own start: the checker must agree.
   if (renderer.reset(scene.start) != Status::converged || !is_free(scene, scene.start)) {
-    throw BadInput("The start pose of the scene " + scene.name +
-                   " penetrates the object: start outside (--start) or give a clearance of 0 or more (--clearance).");
+    throw BadInput(
+        "The start pose of the scene " + scene.name +
+        " penetrates the object: start outside (--start) or give a clearance of 0 or more (--clearance).");
   }
-  SimulatedPhantom device([&](double t) { return to_device_pose(scene.motion(t)); }, device_settings(settings));
+  SimulatedPhantom device([&](double t) { return to_device_pose(scene.motion(t)); },
+                          device_settings(settings));
   if (const OpenResult opened = device.open(); !opened) throw std::runtime_error(opened.problem);
 
   Recording recording;
-  recording.ticks.resize(std::size_t(std::ceil(settings.rate * settings.seconds)));  // touched before the loop
+  recording.ticks.resize(
+      std::size_t(std::ceil(settings.rate * settings.seconds)));  // touched before the loop
   LatestValue<Snapshot> latest;
   SteadyClock::time_point first, last;
   std::size_t count = 0;
@@ -76,9 +80,17 @@ Recording run(const scenes::Scene& scene, const Tool& tool, const SessionSetting
     const auto after = SteadyClock::now();
     device.write(to_device_wrench(tick.wrench));
 
-    recording.ticks[count] = {state.time, haptic, tick.graphic_pose, tick.wrench, tick.contacts.size(), tick.rows,
-                              tick.iterations, tick.converged(), 1e6 * seconds_between(before, after)};
-    latest.store({state.time, recording.ticks[count].microseconds, tick.wrench.force.norm(), tick.contacts.size()});
+    recording.ticks[count] = {state.time,
+                              haptic,
+                              tick.graphic_pose,
+                              tick.wrench,
+                              tick.contacts.size(),
+                              tick.rows,
+                              tick.iterations,
+                              tick.converged(),
+                              1e6 * seconds_between(before, after)};
+    latest.store(
+        {state.time, recording.ticks[count].microseconds, tick.wrench.force.norm(), tick.contacts.size()});
     if (count == 0) first = before;
     last = before;
     return ++count < recording.ticks.size();
@@ -104,7 +116,8 @@ SimulatedPhantomSettings device_settings(const SessionSettings& settings) {
   return device;
 }
 
-Recording run_session(const scenes::Scene& scene, const SessionSettings& settings, const ProgressSink& report) {
+Recording run_session(const scenes::Scene& scene, const SessionSettings& settings,
+                      const ProgressSink& report) {
   try {
     return std::visit([&](const auto& tool) { return run(scene, tool, settings, report); }, scene.tool);
   } catch (const std::invalid_argument& refusal) {

@@ -12,7 +12,7 @@ namespace feeler::demo {
 
 /// What a session needs besides its scene.
 struct SessionSettings {
-  double rate = 1000.0;    ///< [Hz]
+  double rate = 1000.0;  ///< [Hz]
   double seconds = 8.0;
   std::uint32_t seed = 1;  ///< of the tremor of the hand
 };
@@ -23,8 +23,8 @@ struct Progress {
   double rate = 0.0;          ///< achieved since the last report [Hz]
   double microseconds = 0.0;  ///< of the latest tick
   int contacts = 0;
-  double force = 0.0;         ///< norm [N]
-  std::int64_t missed = 0;    ///< deadlines so far
+  double force = 0.0;       ///< norm [N]
+  std::int64_t missed = 0;  ///< deadlines so far
 };
 using ProgressSink = std::function<void(const Progress&)>;
 
@@ -33,6 +33,7 @@ SimulatedPhantomSettings device_settings(const SessionSettings& settings);
 
 /// Runs the scene in real time and records every tick; reports about twice a second on the caller's thread.
 /// @throws BadInput when the start pose penetrates, or when the library refuses the mesh
-Recording run_session(const scenes::Scene& scene, const SessionSettings& settings, const ProgressSink& report);
+Recording run_session(const scenes::Scene& scene, const SessionSettings& settings,
+                      const ProgressSink& report);
 
 }  // namespace feeler::demo

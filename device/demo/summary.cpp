@@ -88,22 +88,29 @@ Summary summarise(const scenes::Scene& scene, const Recording& recording, const 
 std::vector<std::pair<std::string, std::string>> table_of(const Summary& s) {
   const Distribution& t = s.tick_time;
   const Verification& v = s.verification;
-  const std::string checked = v.stride == 1 ? format("all %zu poses, %d places between each two", v.checked_poses, v.samples)
-                                            : format("%zu poses, every %zuth, %d places before each", v.checked_poses,
-                                                     v.stride, v.samples);
+  const std::string checked =
+      v.stride == 1
+          ? format("all %zu poses, %d places between each two", v.checked_poses, v.samples)
+          : format("%zu poses, every %zuth, %d places before each", v.checked_poses, v.stride, v.samples);
   return {
       {"ticks", format("%zu, of them %zu in contact", s.ticks, s.contact_ticks)},
       {"rate", format("%.1f Hz of %.0f Hz", s.achieved_rate, s.wanted_rate)},
       {"missed deadlines", format("%lld", static_cast<long long>(s.missed_deadlines))},
-      {"tick time in contact", format("median %.1f, p99 %.1f, p99.9 %.1f, max %.1f µs", t.median, t.p99, t.p999, t.maximum)},
-      {"rows in contact", format("median %.0f, p99 %.0f, max %.0f", s.rows.median, s.rows.p99, s.rows.maximum)},
-      {"iterations in contact",
-       format("median %.0f, p99 %.0f, max %.0f", s.iterations.median, s.iterations.p99, s.iterations.maximum)},
+      {"tick time in contact",
+       format("median %.1f, p99 %.1f, p99.9 %.1f, max %.1f µs", t.median, t.p99, t.p999, t.maximum)},
+      {"rows in contact",
+       format("median %.0f, p99 %.0f, max %.0f", s.rows.median, s.rows.p99, s.rows.maximum)},
+      {"iterations in contact", format("median %.0f, p99 %.0f, max %.0f", s.iterations.median,
+                                       s.iterations.p99, s.iterations.maximum)},
       {"converged in contact", format("%.2f %%", 100.0 * s.converged_share)},
       {"deepest penetration, poses", depth_text(v.pose_depth, v.pose_tick)},
-      {"deepest penetration, path", depth_text(v.path_depth, v.path_tick)},
+      {"deepest penetration, path",
+       depth_text(v.path_depth, v.path_tick) + (v.path_depth > Verification::tolerance && v.crossings == 0
+                                                    ? ", a corner cut short by the straight way"
+                                                    : "")},
       {"checked", checked},
-      {"largest pose step", format("%.3f mm, %.3f°", 1e3 * s.largest_translation, s.largest_rotation * 57.29577951308232)},
+      {"largest pose step",
+       format("%.3f mm, %.3f°", 1e3 * s.largest_translation, s.largest_rotation * 57.29577951308232)},
       {"largest wrench step", format("%.3f N, %.2f mN·m", s.largest_force_step, 1e3 * s.largest_torque_step)},
       {"peak force and torque", format("%.2f N, %.1f mN·m", s.peak_force, 1e3 * s.peak_torque)},
   };

@@ -23,18 +23,18 @@ Distribution distribution_of(std::vector<double> values);
 struct Summary {
   std::size_t ticks = 0;
   std::size_t contact_ticks = 0;
-  double wanted_rate = 0.0;            ///< [Hz]
-  double achieved_rate = 0.0;          ///< [Hz]
+  double wanted_rate = 0.0;    ///< [Hz]
+  double achieved_rate = 0.0;  ///< [Hz]
   std::int64_t missed_deadlines = 0;
-  Distribution tick_time;              ///< of contact ticks [µs]
-  Distribution rows, iterations;       ///< of contact ticks
-  double converged_share = 1.0;        ///< of contact ticks
-  double largest_translation = 0.0;    ///< of the graphic tool in one tick [m]
-  double largest_rotation = 0.0;       ///< of the graphic tool in one tick [rad]
-  double largest_force_step = 0.0;     ///< [N]
-  double largest_torque_step = 0.0;    ///< [N·m]
-  double peak_force = 0.0;             ///< norm [N]
-  double peak_torque = 0.0;            ///< norm [N·m]
+  Distribution tick_time;            ///< of contact ticks [µs]
+  Distribution rows, iterations;     ///< of contact ticks
+  double converged_share = 1.0;      ///< of contact ticks
+  double largest_translation = 0.0;  ///< of the graphic tool in one tick [m]
+  double largest_rotation = 0.0;     ///< of the graphic tool in one tick [rad]
+  double largest_force_step = 0.0;   ///< [N]
+  double largest_torque_step = 0.0;  ///< [N·m]
+  double peak_force = 0.0;           ///< norm [N]
+  double peak_torque = 0.0;          ///< norm [N·m]
   Verification verification;
 };
 

@@ -18,9 +18,7 @@ test::CheckedTool checked_tool_of(const scenes::Scene& scene) {
 class RunChecker {
  public:
   RunChecker(const scenes::Scene& scene, const std::vector<TickRecord>& ticks)
-      : object_(scene.vertices, scene.triangles),
-        tool_(checked_tool_of(scene)),
-        ticks_(ticks) {}
+      : object_(scene.vertices, scene.triangles), tool_(checked_tool_of(scene)), ticks_(ticks) {}
 
   void check(std::size_t tick, Verification& result) const {
     const auto here = test::checked_pose(ticks_[tick].graphic);
@@ -33,17 +31,31 @@ class RunChecker {
     if (tick == 0) return;
     const auto before = test::checked_pose(ticks_[tick - 1].graphic);
     ++result.checked_ways;
+    double deepest = 0.0;
     for (int i = 1; i <= result.samples; ++i) {
       const auto between = test::pose_on_path(before, here, test::WideReal(i) / (result.samples + 1));
-      const double depth = double(test::deepest_penetration(object_, tool_, between).depth);
-      if (depth > result.path_depth) {
-        result.path_depth = depth;
-        result.path_tick = tick;
-      }
+      deepest = std::max(deepest, double(test::deepest_penetration(object_, tool_, between).depth));
     }
+    if (deepest > result.path_depth) {
+      result.path_depth = deepest;
+      result.path_tick = tick;
+    }
+    if (deepest > Verification::tolerance + Verification::corner_share * motion(before, here))
+      ++result.crossings;
   }
 
  private:
+  /// Longest way of a vertex of the tool [m].
+  double motion(const test::CheckedPose& before, const test::CheckedPose& here) const {
+    double longest = 0.0;
+    for (const test::WideVector& v : tool_.vertices) {
+      const test::WideVector moved =
+          here.translation + here.rotation * v - before.translation - before.rotation * v;
+      longest = std::max(longest, double(moved.norm()));
+    }
+    return longest;
+  }
+
   test::CheckedObject object_;
   test::CheckedTool tool_;
   const std::vector<TickRecord>& ticks_;
