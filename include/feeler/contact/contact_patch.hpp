@@ -26,7 +26,8 @@ using PatchRows = FixedVector<ContactRow<Scalar>, 12>;
 /// from tilting. Where no such pair is as close as the closest points are, they give a row of their own.
 ///
 /// A normal outside the normal cone of the mesh there is a ghost: a neighbour is nearer, and its own rows hold the tool.
-/// Such rows are left out, so that edges inside a flat surface do not catch; `keep_ghost` keeps the closest one.
+/// Such rows are left out, so that edges inside a flat surface do not catch; `keep_ghost` keeps the closest one. In a valley the tool is
+/// above the planes of both sides, and each holds it: there the plane of the face takes the ghost's place.
 ///
 /// All input in the tool frame. @cost O(vertices), and O(edges) where more than one vertex is in the band.
 template <ConvexTool Tool, class MeshScalar>
@@ -58,7 +59,10 @@ class ContactPatch {
     const bool is_met = std::any_of(rows.begin(), rows.end(), [&](const Row& row) { return row.gap <= close_enough; });
     // Overlapping shapes have no closest points: the deepest vertex may lie beside the triangle, where nothing holds it.
     if (is_met || (closest.is_touching && !rows.empty())) return true;
-    if (!keep_ghost && !is_in_cone(closest)) return !rows.empty();
+    if (!keep_ghost && !is_in_cone(closest)) {
+      add_concave_face(closest, rows);
+      return !rows.empty();
+    }
     if (rows.full()) rows.pop_back();
     rows.push_back(row_of(FeaturePair::vertex_face, normal_, closest.tool_point, closest.distance));
     return true;
@@ -109,6 +113,36 @@ class ContactPatch {
       }
       if (is_inside) rows.push_back(row_of(FeaturePair::vertex_face, normal, vertex, gap));
     }
+  }
+
+  /// The triangle's own plane, where the tool is above it and the mesh rises from it at the closest feature.
+  void add_concave_face(const ClosestPoints<Scalar>& closest, PatchRows<Scalar>& rows) noexcept {
+    if (!has_face_ || rows.full()) return;
+    for (const Scalar side : {Scalar(1), Scalar(-1)}) {
+      const Vector normal = side * face_normal_;
+      const Vector vertex = tool_.vertex(tool_.support(Vector(-normal)));
+      const Scalar gap = normal.dot(vertex - corners_.col(0));
+      if (!(gap > Scalar(0)) || !rises_from(normal, closest)) continue;
+      rows.push_back(row_of(FeaturePair::vertex_face, normal, vertex, gap));
+      return;
+    }
+  }
+
+  /// Whether a neighbour at the closest feature rises above the triangle's plane on the side given.
+  bool rises_from(const Vector& normal, const ClosestPoints<Scalar>& closest) const noexcept {
+    const Vector normal_world = world_from_tool_ * normal;
+    const auto& corners = mesh_.triangle(triangle_);
+    for (std::size_t i = 0; i < std::size_t(closest.features.size); ++i) {
+      const int vertex = corners[std::size_t(closest.features.corners[i])];
+      const auto neighbours = mesh_.topology().vertex_neighbours(vertex);
+      if (int(neighbours.size()) > max_cone_valence) return false;
+      const Vector start = mesh_.vertex(vertex).template cast<Scalar>();
+      for (const int neighbour : neighbours) {
+        const Vector along = mesh_.vertex(neighbour).template cast<Scalar>() - start;
+        if (normal_world.dot(along) > cone_tolerance * along.norm()) return true;
+      }
+    }
+    return false;
   }
 
   void add_corners_on_faces(PatchRows<Scalar>& rows) noexcept {

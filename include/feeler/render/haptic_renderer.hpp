@@ -162,6 +162,11 @@ class HapticRenderer {
         return !proposal.is_capped;
       }
       const MovingTool moving(tool_, reference_, radius_, pose_, proposal.motion);
+      if (!descends(moving.pose_at(Working(1)))) {
+        trust_ = std::min(trust_, length) / 4;
+        if (trust_ < resting) break;
+        continue;
+      }
       const auto result = certify(moving);
       if (result.is_exhausted) {
         (problem_.row_count() > 0 ? trust_ : flight_) = length / 8;
@@ -181,6 +186,14 @@ class HapticRenderer {
     }
     trust_ = std::max(trust_, Working(1e-7));
     return false;
+  }
+
+  /// Whether a pose is nearer to the target than the certified one, but for what it costs to keep the margin.
+  bool descends(const Pose<Working>& pose) const noexcept {
+    using std::sqrt;
+    const Working before = metric_.energy(motion_between(target_, pose_));
+    const Working after = metric_.energy(motion_between(target_, pose));
+    return after <= before + margin_ * (sqrt(2 * before) + margin_);
   }
 
   /// Solves for the motion from the certified pose, linearising again where the first step ends.
