@@ -162,7 +162,7 @@ class ContactPatch {
           const Vector edge = tool_.vertex(loop[(i + 1) % loop.size()]) - start;
           is_inside = is_inside && edge.cross(Vector(corner - start)).dot(outward) >= Scalar(0);
         }
-        if (!is_inside || !is_in_vertex_cone(k, Vector(-outward))) continue;
+        if (!is_inside || !is_clear_of_neighbours_at_corner(k, Vector(-outward))) continue;
         rows.push_back(row_of(FeaturePair::face_vertex, Vector(-outward), corner, gap));
       }
     }
@@ -198,7 +198,7 @@ class ContactPatch {
     const Scalar along_tool = between.cross(u).dot(u.cross(v)) / (sine * sine);
     if (along_object < Scalar(0) || along_object > object_length || along_tool < Scalar(0) || along_tool > tool_length) return;
     const Scalar gap = normal.dot(between);
-    if (std::abs(gap) > 2 * band_ || !is_in_edge_cone(k, normal)) return;
+    if (std::abs(gap) > 2 * band_ || !is_clear_of_neighbour_across(k, normal)) return;
     Row row = row_of(FeaturePair::edge_edge, normal, Vector(tool_start + along_tool * v), gap);
     row.object_edge = world_from_tool_ * u;
     row.tool_edge = world_from_tool_ * v;
@@ -213,7 +213,7 @@ class ContactPatch {
     const Scalar extent = std::abs(object.dot(tool));
     const Scalar from = std::max(Scalar(0), first / length_squared);
     const Scalar to = std::min(Scalar(1), (first + extent) / length_squared);
-    if (!(from < to) || !is_in_edge_cone(k, normal_)) return;
+    if (!(from < to) || !is_clear_of_neighbour_across(k, normal_)) return;
     for (const Scalar t : {from, to}) {
       const Vector on_tool = tool_start + t * tool;
       const Scalar along = object.dot(on_tool - start) / object.squaredNorm();
@@ -249,6 +249,16 @@ class ContactPatch {
   bool is_in_edge_cone(int edge, const Vector& normal) const noexcept {
     const Vector3<MeshScalar> direction = (world_from_tool_ * normal).template cast<MeshScalar>();
     return edge_cone_contains(mesh_, triangle_, edge, direction, MeshScalar(cone_tolerance));
+  }
+
+  // In a patch the triangle itself may rise a little from one of its features to the next; both hold the tool. Its neighbours may not.
+  bool is_clear_of_neighbours_at_corner(int corner, const Vector& normal) const noexcept {
+    const Vector3<MeshScalar> direction = (world_from_tool_ * normal).template cast<MeshScalar>();
+    return neighbours_point_away(mesh_, triangle_, corner, direction, MeshScalar(cone_tolerance));
+  }
+  bool is_clear_of_neighbour_across(int edge, const Vector& normal) const noexcept {
+    const Vector3<MeshScalar> direction = (world_from_tool_ * normal).template cast<MeshScalar>();
+    return neighbour_points_away(mesh_, triangle_, edge, direction, MeshScalar(cone_tolerance));
   }
 
   const Tool& tool_;
