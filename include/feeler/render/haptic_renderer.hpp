@@ -205,6 +205,7 @@ class HapticRenderer {
       linearise(pose, round == 0);
       const Twist<Working> e = motion_between(target_, pose);
       const Vector6<Working> step = proposal.is_capped ? problem_.restore(metric_, margin_) : problem_.solve(metric_, e, margin_);
+      note_tight_pairs();
       pose = moved(pose, Twist<Working>::from_vector(step));
       proposal.motion = motion_between(pose_, pose);
       const Working last = length_of(Twist<Working>::from_vector(step));
@@ -244,10 +245,18 @@ class HapticRenderer {
       pair.has_rows = patch.find(pair.triangle, corners, closest, pair.keeps_ghost, rows);
       for (ContactRow<Working>& row : rows) {
         row.triangle = pair.triangle;
-        problem_.add(row, pair.slack);
+        problem_.add(row, pair.slack, pair.is_tight);
       }
     }
     tick_.rows = problem_.row_count();
+  }
+
+  /// Remembers which pairs had no room for the margin.
+  void note_tight_pairs() noexcept {
+    for (int i = 0; i < working_set_.size(); ++i) working_set_[i].is_tight = false;
+    for (int k = 0; k < problem_.row_count(); ++k) {
+      if (problem_.is_relaxed(k)) working_set_[working_set_.find(problem_.row(k).triangle)].is_tight = true;
+    }
   }
 
   /// Closest points of a pair. On the way the tool may overlap it; then the plane it had at the certified pose says which features meet.
