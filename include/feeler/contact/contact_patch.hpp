@@ -27,7 +27,8 @@ using PatchRows = FixedVector<ContactRow<Scalar>, 12>;
 ///
 /// A normal outside the normal cone of the mesh there is a ghost: a neighbour is nearer, and its own rows hold the tool.
 /// Such rows are left out, so that edges inside a flat surface do not catch; `keep_ghost` keeps the closest one. In a valley the tool is
-/// above the planes of both sides, and each holds it: there the plane of the face takes the ghost's place.
+/// above the planes of both sides, and each will hold it: there the plane of the face takes the ghost's place, and the row says that it is
+/// assumed.
 ///
 /// All input in the tool frame. @cost O(vertices), and O(edges) where more than one vertex is in the band.
 template <ConvexTool Tool, class MeshScalar>
@@ -40,9 +41,15 @@ class ContactPatch {
   /// @param world_from_tool  axes of the tool; rows come out in world axes
   /// @param reference        reference point in the tool frame [m]
   /// @param band             height above the separating plane up to which features count [m]
+  /// @param assumes_valleys  let the planes of valleys hold the tool before it is over them
   ContactPatch(const Tool& tool, const TriangleMesh<MeshScalar>& mesh, const Matrix3<Scalar>& world_from_tool,
-               const Vector& reference, Scalar band) noexcept
-      : tool_(tool), mesh_(mesh), world_from_tool_(world_from_tool), reference_(reference), band_(band) {}
+               const Vector& reference, Scalar band, bool assumes_valleys) noexcept
+      : tool_(tool),
+        mesh_(mesh),
+        world_from_tool_(world_from_tool),
+        reference_(reference),
+        band_(band),
+        assumes_valleys_(assumes_valleys) {}
 
   /// Rows of a triangle with the closest points given; false when it had none but a ghost and that was left out.
   bool find(int triangle, const Matrix3<Scalar>& corners, const ClosestPoints<Scalar>& closest, bool keep_ghost,
@@ -60,7 +67,7 @@ class ContactPatch {
     // Overlapping shapes have no closest points: the deepest vertex may lie beside the triangle, where nothing holds it.
     if (is_met || (closest.is_touching && !rows.empty())) return true;
     if (!keep_ghost && !is_in_cone(closest)) {
-      add_concave_face(closest, rows);
+      if (assumes_valleys_) add_concave_face(closest, rows);
       return !rows.empty();
     }
     if (rows.full()) rows.pop_back();
@@ -115,34 +122,39 @@ class ContactPatch {
     }
   }
 
-  /// The triangle's own plane, where the tool is above it and the mesh rises from it at the closest feature.
+  /// The triangle's own plane, where the lowest tool vertex is beside it, near, and every edge between them is a valley's.
   void add_concave_face(const ClosestPoints<Scalar>& closest, PatchRows<Scalar>& rows) noexcept {
-    if (!has_face_ || rows.full()) return;
+    if (!has_face_ || rows.full() || closest.distance > 4 * band_) return;
     for (const Scalar side : {Scalar(1), Scalar(-1)}) {
       const Vector normal = side * face_normal_;
       const Vector vertex = tool_.vertex(tool_.support(Vector(-normal)));
       const Scalar gap = normal.dot(vertex - corners_.col(0));
-      if (!(gap > Scalar(0)) || !rises_from(normal, closest)) continue;
+      if (!(gap > Scalar(0)) || !is_across_valleys(vertex, normal)) continue;
       rows.push_back(row_of(FeaturePair::vertex_face, normal, vertex, gap));
+      rows.back().is_assumed = true;
       return;
     }
   }
 
-  /// Whether a neighbour at the closest feature rises above the triangle's plane on the side given.
-  bool rises_from(const Vector& normal, const ClosestPoints<Scalar>& closest) const noexcept {
+  /// Whether the mesh rises from the triangle's plane, on the side given, across each edge that a point lies beyond.
+  bool is_across_valleys(const Vector& point, const Vector& normal) const noexcept {
     const Vector normal_world = world_from_tool_ * normal;
     const auto& corners = mesh_.triangle(triangle_);
-    for (std::size_t i = 0; i < std::size_t(closest.features.size); ++i) {
-      const int vertex = corners[std::size_t(closest.features.corners[i])];
-      const auto neighbours = mesh_.topology().vertex_neighbours(vertex);
-      if (int(neighbours.size()) > max_cone_valence) return false;
-      const Vector start = mesh_.vertex(vertex).template cast<Scalar>();
-      for (const int neighbour : neighbours) {
-        const Vector along = mesh_.vertex(neighbour).template cast<Scalar>() - start;
-        if (normal_world.dot(along) > cone_tolerance * along.norm()) return true;
+    for (int k = 0; k < 3; ++k) {
+      const Vector start = corners_.col(k);
+      const Vector edge = corners_.col((k + 1) % 3) - start;
+      if (edge.cross(Vector(point - start)).dot(face_normal_) >= Scalar(0)) continue;
+      const int neighbour = mesh_.topology().neighbour(triangle_, k);
+      if (neighbour < 0) return false;
+      const Vector start_world = mesh_.vertex(corners[index(k)]).template cast<Scalar>();
+      bool rises = false;
+      for (const int vertex : mesh_.triangle(neighbour)) {
+        const Vector along = mesh_.vertex(vertex).template cast<Scalar>() - start_world;
+        rises = rises || normal_world.dot(along) > cone_tolerance * along.norm();
       }
+      if (!rises) return false;
     }
-    return false;
+    return true;
   }
 
   void add_corners_on_faces(PatchRows<Scalar>& rows) noexcept {
@@ -266,6 +278,7 @@ class ContactPatch {
   Matrix3<Scalar> world_from_tool_;
   Vector reference_;
   Scalar band_;
+  bool assumes_valleys_;
 
   int triangle_ = -1;
   Matrix3<Scalar> corners_;

@@ -158,9 +158,7 @@ class HapticRenderer {
       ++tick_.iterations;
       const Proposal proposal = propose();
       const Working length = length_of(proposal.motion);
-      if (length <= resting) {
-        return !proposal.is_capped;
-      }
+      if (length <= resting) return proposal.is_settled && !proposal.is_capped;
       const MovingTool moving(tool_, reference_, radius_, pose_, proposal.motion);
       if (!descends(moving.pose_at(Working(1)))) {
         trust_ = std::min(trust_, length) / 4;
@@ -201,8 +199,9 @@ class HapticRenderer {
     constexpr int maximum_rounds = 3;
     Proposal proposal;
     Pose<Working> pose = pose_;
+    bool rests_on_assumption = false;
     for (int round = 0; round < maximum_rounds; ++round) {
-      linearise(pose, round == 0);
+      linearise(pose, round == 0, !rests_on_assumption);
       const Twist<Working> e = motion_between(target_, pose);
       const Vector6<Working> step = proposal.is_capped ? problem_.restore(metric_, margin_) : problem_.solve(metric_, e, margin_);
       note_tight_pairs();
@@ -219,18 +218,19 @@ class HapticRenderer {
         if (proposal.is_free) return proposal;
         continue;
       }
-      proposal.is_settled = last < Working(settings_.step_tolerance) || proposal.is_free;
+      rests_on_assumption = problem_.rests_on_assumption();
+      proposal.is_settled = (last < Working(settings_.step_tolerance) && !rests_on_assumption) || proposal.is_free;
       if (proposal.is_settled || proposal.is_capped) return proposal;
     }
     return proposal;
   }
 
   /// Rows of the working set at a pose; at the certified pose also the planes that the certificate starts from.
-  void linearise(const Pose<Working>& pose, bool is_certified) noexcept {
+  void linearise(const Pose<Working>& pose, bool is_certified, bool assumes_valleys) noexcept {
     problem_.clear();
     const Matrix3<Working> axes = pose.rotation.toRotationMatrix();
     const Working band = Working(settings_.trust_radius) / 4;
-    ContactPatch<WorkingTool, Scalar> patch(tool_, object_, axes, reference_, band);
+    ContactPatch<WorkingTool, Scalar> patch(tool_, object_, axes, reference_, band, assumes_valleys);
     PatchRows<Working> rows;
     for (int i = 0; i < working_set_.size(); ++i) {
       Pair& pair = working_set_[i];

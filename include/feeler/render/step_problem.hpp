@@ -37,6 +37,11 @@ class StepProblem {
   }
   /// Whether a row of the last solution was asked for less than the margin.
   bool is_relaxed(int k) const noexcept { return is_relaxed_[index(k)]; }
+  /// Whether an assumed row stopped the last step.
+  bool rests_on_assumption() const noexcept {
+    return std::any_of(solution_.active.begin(), solution_.active.end(),
+                       [this](const auto& active) { return rows_[active.row].is_assumed; });
+  }
   int row_count() const noexcept { return rows_.size(); }
   const Row& row(int k) const noexcept { return rows_[k]; }
   const QpSolution<Scalar>& solution() const noexcept { return solution_; }
