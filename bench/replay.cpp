@@ -41,7 +41,8 @@ struct Figures {
   int ticks = 0;
   int checked = 0;
   int converged = 0;
-  std::vector<double> microseconds, iterations, rows, work, resolve_distance;  // of contact ticks
+  std::vector<double> microseconds, iterations, rows, work;  // of contact ticks
+  std::vector<double> distance, distance_if_converged;       // to a tight solution [m]
   double deepest = 0.0;
 };
 
@@ -103,8 +104,10 @@ Figures replay(const feeler::scenes::Setting& scene, const Tool& tool, const Opt
       figures.work.push_back(tick.work);
       figures.converged += tick.converged() ? 1 : 0;
       if (options.resolve_every > 0 && int(figures.work.size()) % options.resolve_every == 0) {
-        figures.resolve_distance.push_back(
-            distance_to_tight_solution(object, tool, settings, tick.graphic_pose, haptic));
+        const double distance = distance_to_tight_solution(object, tool, settings, tick.graphic_pose, haptic);
+        if (std::getenv("WHERE") && distance > 1e-7 && tick.converged()) std::printf("k=%d distance %g rows %d contacts %d\n", k, distance, tick.rows, tick.contacts.size());
+        figures.distance.push_back(distance);
+        if (tick.converged()) figures.distance_if_converged.push_back(distance);
       }
     }
     if (options.check_every > 0 && k % options.check_every == 0) {
@@ -122,9 +125,15 @@ Figures replay(const feeler::scenes::Setting& scene, const Tool& tool, const Opt
   return figures;
 }
 
+/// Share of distances of at most 0.1 µm [%].
+double near_share(const std::vector<double>& distance) {
+  const auto near = std::count_if(distance.begin(), distance.end(), [](double d) { return d <= 1e-7; });
+  return 100.0 * double(near) / double(std::max<std::size_t>(distance.size(), 1));
+}
+
 void print_header() {
-  std::printf("%-18s %13s %7s | %7s %7s %7s %7s | %7s %7s | %9s %9s | %9s\n", "scene", "contact/ticks", "conv %",
-              "p50 µs", "p99", "p99.9", "max", "rows", "iter99", "≤0.1 µm %", "p98 µm", "deepest m");
+  std::printf("%-18s %13s %7s | %7s %7s %7s %7s | %7s %7s | %9s %9s %9s | %9s\n", "scene", "contact/ticks", "conv %",
+              "p50 µs", "p99", "p99.9", "max", "rows", "iter99", "≤0.1 µm %", "of conv %", "p98 µm", "deepest m");
 }
 
 void print(const std::string& name, const Figures& figures, const Options& options) {
@@ -133,12 +142,11 @@ void print(const std::string& name, const Figures& figures, const Options& optio
   std::printf("%-18s %6zu/%6d %7.2f | %7.1f %7.1f %7.1f %7.1f | %7.0f %7.0f | ", name.c_str(), us.size(), figures.ticks,
               100.0 * figures.converged / contacts, quantile(us, 0.5), quantile(us, 0.99), quantile(us, 0.999),
               quantile(us, 1.0), quantile(figures.rows, 0.5), quantile(figures.iterations, 0.99));
-  const auto& distance = figures.resolve_distance;
-  if (distance.empty()) {
-    std::printf("%9s %9s | ", "-", "-");
+  if (figures.distance.empty()) {
+    std::printf("%9s %9s %9s | ", "-", "-", "-");
   } else {
-    const auto near = std::count_if(distance.begin(), distance.end(), [](double d) { return d <= 1e-7; });
-    std::printf("%9.2f %9.3g | ", 100.0 * double(near) / double(distance.size()), 1e6 * quantile(distance, 0.98));
+    std::printf("%9.2f %9.2f %9.3g | ", near_share(figures.distance), near_share(figures.distance_if_converged),
+                1e6 * quantile(figures.distance, 0.98));
   }
   if (options.check_every > 0) {
     std::printf("%9.2g\n", figures.deepest);

@@ -196,10 +196,11 @@ class HapticRenderer {
 
   /// Solves for the motion from the certified pose, linearising again where the first step ends.
   Proposal propose() noexcept {
-    constexpr int maximum_rounds = 3;
+    constexpr int maximum_rounds = 4;
     Proposal proposal;
     Pose<Working> pose = pose_;
     bool rests_on_assumption = false;
+    Working previous(0);
     for (int round = 0; round < maximum_rounds; ++round) {
       linearise(pose, round == 0, !rests_on_assumption);
       const Twist<Working> e = motion_between(target_, pose);
@@ -219,7 +220,11 @@ class HapticRenderer {
         continue;
       }
       rests_on_assumption = problem_.rests_on_assumption();
-      proposal.is_settled = (last < Working(settings_.step_tolerance) && !rests_on_assumption) || proposal.is_free;
+      // A short step is the last one where steps shrink fast, or where it is very short.
+      const Working tolerance = Working(settings_.step_tolerance);
+      const bool is_short = last < tolerance && (last < previous / 10 || last < tolerance / 50);
+      previous = last;
+      proposal.is_settled = (is_short && !rests_on_assumption) || proposal.is_free;
       if (proposal.is_settled || proposal.is_capped) return proposal;
     }
     return proposal;
