@@ -32,7 +32,7 @@ struct Options {
   double seconds = 10.0;
   unsigned hostile_seed = 0;  // 0: the hand moves as the scene says
   int check_every = 0;        // ticks between checks of pose and way; 0: none
-  int resolve_every = 0;      // contact ticks between tight re-solves; 0: none
+  int settle_every = 0;       // contact ticks between looks at where the tool would settle; 0: none
   int work_budget = 0;        // 0: the library's default
 };
 
@@ -42,7 +42,7 @@ struct Figures {
   int checked = 0;
   int converged = 0;
   std::vector<double> microseconds, iterations, rows, work;  // of contact ticks
-  std::vector<double> distance, distance_if_converged;       // to a tight solution [m]
+  std::vector<double> distance, distance_if_converged;       // to where the held device settles [m]
   double deepest = 0.0;
 };
 
@@ -59,19 +59,14 @@ double thread_time() {
   return double(t.tv_sec) * 1e6 + double(t.tv_nsec) * 1e-3;
 }
 
-/// Distance in the metric of the scene from a graphic pose to where ever tighter ticks with the same haptic pose lead [m].
-template <class Tool>
-double distance_to_tight_solution(const feeler::TriangleMesh<double>& object, const Tool& tool,
-                                  feeler::Settings<double> settings, const Pose<double>& graphic, const Pose<double>& haptic) {
-  settings.step_tolerance = 1e-9;
-  settings.work_budget = 100000;
-  settings.maximum_iterations = 32;
-  feeler::HapticRenderer renderer(object, tool, settings);
-  if (renderer.reset(graphic) != feeler::Status::converged) return std::numeric_limits<double>::infinity();
-  for (int i = 0; i < 50; ++i) {
+/// Distance in the metric of the scene from the graphic pose to where the renderer would settle with the device held [m].
+template <class Renderer>
+double distance_to_settled(Renderer renderer, const Pose<double>& haptic, const feeler::Metric<double>& metric) {
+  constexpr int most_ticks = 200;
+  const Pose<double> graphic = renderer.tick().graphic_pose;
+  for (int i = 0; i < most_ticks; ++i) {
     if (renderer.update(haptic).converged() && renderer.tick().path.empty()) break;
   }
-  const auto metric = feeler::Metric<double>::proportional_to(settings.stiffness);
   return std::sqrt(2.0 * metric.energy(motion_between(graphic, renderer.tick().graphic_pose)));
 }
 
@@ -103,9 +98,8 @@ Figures replay(const feeler::scenes::Setting& scene, const Tool& tool, const Opt
       figures.rows.push_back(tick.rows);
       figures.work.push_back(tick.work);
       figures.converged += tick.converged() ? 1 : 0;
-      if (options.resolve_every > 0 && int(figures.work.size()) % options.resolve_every == 0) {
-        const double distance = distance_to_tight_solution(object, tool, settings, tick.graphic_pose, haptic);
-        if (std::getenv("WHERE") && distance > 1e-7 && tick.converged()) std::printf("k=%d distance %g rows %d contacts %d\n", k, distance, tick.rows, tick.contacts.size());
+      if (options.settle_every > 0 && int(figures.work.size()) % options.settle_every == 0) {
+        const double distance = distance_to_settled(renderer, haptic, metric);
         figures.distance.push_back(distance);
         if (tick.converged()) figures.distance_if_converged.push_back(distance);
       }
@@ -171,7 +165,7 @@ int main(int argc, char** argv) {
   app.add_option("--seconds", options.seconds, "length of the motion")->check(CLI::Range(0.01, 1e4));
   app.add_option("--hostile", options.hostile_seed, "seed of teleports and spins; 0 for none");
   app.add_option("--check", options.check_every, "check every Nth tick for penetration; 0 for none")->check(CLI::NonNegativeNumber);
-  app.add_option("--resolve", options.resolve_every, "solve every Nth contact tick again, tightly; 0 for none")->check(CLI::NonNegativeNumber);
+  app.add_option("--settle", options.settle_every, "hold the device at every Nth contact tick and see where the tool settles; 0 for none")->check(CLI::NonNegativeNumber);
   app.add_option("--budget", options.work_budget, "Settings::work_budget; 0 for the default")->check(CLI::NonNegativeNumber);
   CLI11_PARSE(app, argc, argv);
 
