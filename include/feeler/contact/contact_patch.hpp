@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 
 #include "feeler/contact/contact_row.hpp"
 #include "feeler/core/fixed_vector.hpp"
@@ -112,13 +113,9 @@ class ContactPatch {
       const Vector vertex = tool_.vertex(near_[index(i)]);
       const Scalar gap = normal.dot(vertex - corners_.col(0));
       if (std::abs(gap) > 2 * band_) continue;
-      bool is_inside = true;
-      for (int k = 0; k < 3; ++k) {
-        const Vector start = corners_.col(k);
-        const Vector edge = corners_.col((k + 1) % 3) - start;
-        is_inside = is_inside && edge.cross(Vector(vertex - start)).dot(face_normal_) >= Scalar(0);
-      }
-      if (is_inside) rows.push_back(row_of(FeaturePair::vertex_face, normal, vertex, gap));
+      Scalar room = std::numeric_limits<Scalar>::infinity();
+      for (int k = 0; k < 3; ++k) room = std::min(room, inward(corners_.col(k), corners_.col((k + 1) % 3), vertex, face_normal_));
+      if (room >= Scalar(0)) rows.push_back(row_of(FeaturePair::vertex_face, normal, vertex, gap, room));
     }
   }
 
@@ -168,14 +165,12 @@ class ContactPatch {
         const Vector corner = corners_.col(k);
         const Scalar gap = outward.dot(corner - tool_.vertex(loop[0]));
         if (std::abs(gap) > 2 * band_) continue;
-        bool is_inside = true;
+        Scalar room = std::numeric_limits<Scalar>::infinity();
         for (std::size_t i = 0; i < loop.size(); ++i) {
-          const Vector start = tool_.vertex(loop[i]);
-          const Vector edge = tool_.vertex(loop[(i + 1) % loop.size()]) - start;
-          is_inside = is_inside && edge.cross(Vector(corner - start)).dot(outward) >= Scalar(0);
+          room = std::min(room, inward(tool_.vertex(loop[i]), tool_.vertex(loop[(i + 1) % loop.size()]), corner, outward));
         }
-        if (!is_inside || !is_clear_of_neighbours_at_corner(k, Vector(-outward))) continue;
-        rows.push_back(row_of(FeaturePair::face_vertex, Vector(-outward), corner, gap));
+        if (!(room >= Scalar(0)) || !is_clear_of_neighbours_at_corner(k, Vector(-outward))) continue;
+        rows.push_back(row_of(FeaturePair::face_vertex, Vector(-outward), corner, gap, room));
       }
     }
   }
@@ -208,10 +203,11 @@ class ContactPatch {
     const Vector between = tool_start - start;
     const Scalar along_object = between.cross(v).dot(u.cross(v)) / (sine * sine);
     const Scalar along_tool = between.cross(u).dot(u.cross(v)) / (sine * sine);
-    if (along_object < Scalar(0) || along_object > object_length || along_tool < Scalar(0) || along_tool > tool_length) return;
+    const Scalar room = std::min({along_object, object_length - along_object, along_tool, tool_length - along_tool});
+    if (!(room >= Scalar(0))) return;
     const Scalar gap = normal.dot(between);
     if (std::abs(gap) > 2 * band_ || !is_clear_of_neighbour_across(k, normal)) return;
-    Row row = row_of(FeaturePair::edge_edge, normal, Vector(tool_start + along_tool * v), gap);
+    Row row = row_of(FeaturePair::edge_edge, normal, Vector(tool_start + along_tool * v), gap, room);
     row.object_edge = world_from_tool_ * u;
     row.tool_edge = world_from_tool_ * v;
     rows.push_back(row);
@@ -237,9 +233,17 @@ class ContactPatch {
     }
   }
 
-  Row row_of(FeaturePair kind, const Vector& normal, const Vector& point, Scalar gap) const noexcept {
+  /// Signed distance of a point from a line on the inner side of a loop around `normal`.
+  static Scalar inward(const Vector& start, const Vector& end, const Vector& point, const Vector& normal) noexcept {
+    const Vector edge = end - start;
+    return edge.cross(Vector(point - start)).dot(normal) / edge.norm();
+  }
+
+  /// A row whose features meet anywhere within `room` of the point. About a corner the normal turns within the gap: there is no room.
+  Row row_of(FeaturePair kind, const Vector& normal, const Vector& point, Scalar gap, Scalar room = Scalar(0)) const noexcept {
     Row row;
     row.kind = kind;
+    row.room = std::max(room, gap / 20);
     row.normal = world_from_tool_ * normal;
     row.arm = world_from_tool_ * (point - reference_);
     row.gap = gap;

@@ -31,6 +31,13 @@ struct ContactRow {
   Vector3<Scalar> object_edge = Vector3<Scalar>::Zero(); ///< `edge_edge` only: unit directions
   Vector3<Scalar> tool_edge = Vector3<Scalar>::Zero();
   Scalar gap = Scalar(0);
+  Scalar room = Scalar(0);  ///< how far the contact may slide before other features meet [m]
+
+  /// Whether the same features still meet after a step.
+  bool outlasts(const Vector6<Scalar>& step) const noexcept {
+    const Vector3<Scalar> motion = step.template head<3>() + Vector3<Scalar>(step.template tail<3>()).cross(arm);
+    return (motion - normal.dot(motion) * normal).squaredNorm() <= room * room;
+  }
 
   Vector6<Scalar> gradient() const noexcept {
     Vector6<Scalar> j;

@@ -224,7 +224,7 @@ class HapticRenderer {
       const Working tolerance = Working(settings_.step_tolerance);
       const bool is_short = last < tolerance && (last < previous / 10 || last < tolerance / 50);
       previous = last;
-      proposal.is_settled = (is_short && !rests_on_assumption) || proposal.is_free;
+      proposal.is_settled = (is_short && !rests_on_assumption && problem_.keeps_features()) || proposal.is_free;
       if (proposal.is_settled || proposal.is_capped) return proposal;
     }
     return proposal;

@@ -42,6 +42,11 @@ class StepProblem {
     return std::any_of(solution_.active.begin(), solution_.active.end(),
                        [this](const auto& active) { return rows_[active.row].is_assumed; });
   }
+  /// Whether the contacts that stopped the last step are still between the same features after it.
+  bool keeps_features() const noexcept {
+    return std::all_of(solution_.active.begin(), solution_.active.end(),
+                       [this](const auto& active) { return rows_[active.row].outlasts(solution_.step); });
+  }
   int row_count() const noexcept { return rows_.size(); }
   const Row& row(int k) const noexcept { return rows_[k]; }
   const QpSolution<Scalar>& solution() const noexcept { return solution_; }
