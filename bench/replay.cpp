@@ -34,6 +34,7 @@ struct Options {
   int check_every = 0;        // ticks between checks of pose and way; 0: none
   int settle_every = 0;       // contact ticks between looks at where the tool would settle; 0: none
   int work_budget = 0;        // 0: the library's default
+  double margin = 0.0;        // [m]; 0: the library's default
 };
 
 /// What one replay found.
@@ -76,6 +77,7 @@ Figures replay(const feeler::scenes::Setting& scene, const Tool& tool, const Opt
   const feeler::TriangleMesh<double> object(scene.vertices, scene.triangles);
   auto settings = scene.settings();
   if (options.work_budget > 0) settings.work_budget = options.work_budget;
+  if (options.margin > 0.0) settings.margin = options.margin;
   feeler::HapticRenderer renderer(object, tool, settings);
   if (renderer.reset(scene.start) != feeler::Status::converged) throw std::runtime_error("the scene starts in penetration");
 
@@ -167,6 +169,7 @@ int main(int argc, char** argv) {
   app.add_option("--check", options.check_every, "check every Nth tick for penetration; 0 for none")->check(CLI::NonNegativeNumber);
   app.add_option("--settle", options.settle_every, "hold the device at every Nth contact tick and see where the tool settles; 0 for none")->check(CLI::NonNegativeNumber);
   app.add_option("--budget", options.work_budget, "Settings::work_budget; 0 for the default")->check(CLI::NonNegativeNumber);
+  app.add_option("--margin", options.margin, "Settings::margin in metres; 0 for the default")->check(CLI::NonNegativeNumber);
   CLI11_PARSE(app, argc, argv);
 
   const auto wanted = [&](const char* name) { return options.scene == "all" || options.scene == name; };
