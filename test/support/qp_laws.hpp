@@ -393,6 +393,26 @@ void check_qp_laws(unsigned seed = 1, int problems_per_family = 300) {
     BOOST_TEST(solution.step.isZero(Scalar(0)));
     BOOST_TEST(is_valid(problem, solution));
   }
+
+  // A NaN or an infinity anywhere ends, and leaves a valid answer.
+  for (const Scalar bad : {std::numeric_limits<Scalar>::quiet_NaN(), std::numeric_limits<Scalar>::infinity(),
+                           -std::numeric_limits<Scalar>::infinity()}) {
+    for (int place = 0; place < 100; ++place) {
+      BOOST_TEST_CONTEXT("bad value " << bad << " place " << place) {
+        problem = random_problem<Scalar>(bits, place % random_problem_families, 1);
+        const int i = below(bits, 6), k = below(bits, 6);
+        const auto row = std::size_t(below(bits, problem.row_count));
+        if (place % 4 == 0) problem.hessian(i, k) = problem.hessian(k, i) = bad;
+        if (place % 4 == 1) problem.gradient[i] = bad;
+        if (place % 4 == 2) problem.rows[row][i] = bad;
+        if (place % 4 == 3) problem.bounds[row] = bad;
+        const feeler::QpStatus status = solver.solve(problem, solution);
+        BOOST_TEST(is_valid(problem, solution));
+        // Truth: a problem with no number in its objective has no optimum.
+        if (place % 4 < 2) BOOST_TEST((status != feeler::QpStatus::optimal));
+      }
+    }
+  }
 }
 
 }  // namespace feeler_test
