@@ -46,6 +46,19 @@ std::array<Scalar, 3> closest_on_segment(const Vector3<Scalar>& a, const Vector3
   return {Scalar(1) - t, t, Scalar(0)};
 }
 
+/// The same for the edges of a triangle: all there is of one without area.
+template <class Scalar>
+std::array<Scalar, 3> closest_on_edges(const Vector3<Scalar>& a, const Vector3<Scalar>& b,
+                                       const Vector3<Scalar>& c) noexcept {
+  const auto ab = closest_on_segment(a, b), bc = closest_on_segment(b, c), ca = closest_on_segment(c, a);
+  const Scalar on_ab = (ab[0] * a + ab[1] * b).squaredNorm();
+  const Scalar on_bc = (bc[0] * b + bc[1] * c).squaredNorm();
+  const Scalar on_ca = (ca[0] * c + ca[1] * a).squaredNorm();
+  if (on_ab <= on_bc && on_ab <= on_ca) return ab;
+  if (on_bc <= on_ca) return {Scalar(0), bc[0], bc[1]};
+  return {ca[1], Scalar(0), ca[0]};
+}
+
 /// The same for a triangle, by its Voronoi regions (C. Ericson, "Real-Time Collision Detection", section 5.1.5).
 template <class Scalar>
 std::array<Scalar, 3> closest_on_triangle(const Vector3<Scalar>& a, const Vector3<Scalar>& b,
@@ -61,26 +74,27 @@ std::array<Scalar, 3> closest_on_triangle(const Vector3<Scalar>& a, const Vector
   // Areas of the sub-triangles, from the normal rather than from products of the dots above: exact to rounding near the plane.
   const Vector3<Scalar> normal = ab.cross(ac);
   const Scalar va = normal.dot(b.cross(c)), vb = normal.dot(c.cross(a)), vc = normal.dot(a.cross(b));
-  if (vc <= Scalar(0) && d1 >= Scalar(0) && d3 <= Scalar(0)) {
+  if (vc <= Scalar(0) && d1 >= Scalar(0) && d3 <= Scalar(0) && d1 > d3) {
     const Scalar t = d1 / (d1 - d3);
     return {Scalar(1) - t, t, Scalar(0)};
   }
-  if (vb <= Scalar(0) && d2 >= Scalar(0) && d6 <= Scalar(0)) {
+  if (vb <= Scalar(0) && d2 >= Scalar(0) && d6 <= Scalar(0) && d2 > d6) {
     const Scalar t = d2 / (d2 - d6);
     return {Scalar(1) - t, Scalar(0), t};
   }
-  if (va <= Scalar(0) && d4 - d3 >= Scalar(0) && d5 - d6 >= Scalar(0)) {
+  if (va <= Scalar(0) && d4 - d3 >= Scalar(0) && d5 - d6 >= Scalar(0) && (d4 - d3) + (d5 - d6) > Scalar(0)) {
     const Scalar t = (d4 - d3) / ((d4 - d3) + (d5 - d6));
     return {Scalar(0), Scalar(1) - t, t};
   }
   const Scalar sum = va + vb + vc;
-  if (!(sum > Scalar(0))) return {Scalar(1), Scalar(0), Scalar(0)};  // flat: the caller compares with the edges
+  if (!(sum > Scalar(0))) return closest_on_edges(a, b, c);
   return {va / sum, vb / sum, vc / sum};
 }
 
 /// Reduces the simplex to the points that carry its point closest to the origin; false when it contains the origin.
 ///
-/// The newest point is the last. Only faces with the newest point are searched: the others were on the far side before.
+/// All faces are searched. That without the newest point, the last, has the origin on its far side only where the three points
+/// were flat or a start from old features had not reduced them, but then it alone tells that the origin is outside.
 template <class Scalar>
 bool reduce_to_closest(Simplex<Scalar>& simplex) noexcept {
   const auto& p = simplex.points;
@@ -110,7 +124,7 @@ bool reduce_to_closest(Simplex<Scalar>& simplex) noexcept {
       return true;
     default: break;
   }
-  constexpr std::array<std::array<int, 4>, 3> faces{{{0, 1, 3, 2}, {1, 2, 3, 0}, {0, 2, 3, 1}}};
+  constexpr std::array<std::array<int, 4>, 4> faces{{{0, 1, 3, 2}, {1, 2, 3, 0}, {0, 2, 3, 1}, {0, 1, 2, 3}}};
   Scalar best = std::numeric_limits<Scalar>::infinity();
   std::array<int, 3> positions{};
   std::array<Scalar, 3> weights{};

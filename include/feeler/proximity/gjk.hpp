@@ -73,7 +73,6 @@ ClosestPoints<typename Tool::Scalar> gjk(const Tool& tool, const Matrix3<typenam
     size = std::max(size, tool.vertex(simplex.tool_vertices[std::size_t(i)]).template lpNorm<Eigen::Infinity>());
   }
   Scalar best_distance = -std::numeric_limits<Scalar>::infinity();
-  Scalar previous = std::numeric_limits<Scalar>::infinity();
   for (int iteration = 0; iteration < maximum_iterations; ++iteration) {
     const Vector3<Scalar> v = simplex.closest;
     const Scalar length_squared = v.squaredNorm();
@@ -96,13 +95,16 @@ ClosestPoints<typename Tool::Scalar> gjk(const Tool& tool, const Matrix3<typenam
     for (std::size_t i = 0; i < std::size_t(simplex.size); ++i) {
       is_known = is_known || (simplex.tool_vertices[i] == vertex && simplex.corners[i] == corner);
     }
-    if (is_known || !(length_squared < previous)) break;
-    previous = length_squared;
+    if (is_known) break;
+    const detail::Simplex<Scalar> last = simplex;
     add(vertex, corner);
-    if (!reduce_to_closest(simplex)) {
-      result.is_touching = true;
-      break;
-    }
+    const bool is_apart = reduce_to_closest(simplex);
+    if (is_apart && simplex.closest.squaredNorm() < length_squared) continue;
+    // No closer, or around the origin though a plane parts the shapes: the simplex is flat to rounding, as the four points of two
+    // edges are. The points before the last one stand.
+    result.is_touching = !is_apart && !(best_distance > touching_distance);
+    if (!result.is_touching) simplex = last;
+    break;
   }
   result.features.size = simplex.size > 3 ? 0 : simplex.size;
   for (std::size_t i = 0; i < std::size_t(result.features.size); ++i) {

@@ -52,6 +52,10 @@ class DualActiveSet {
       if (status != QpStatus::optimal) break;
       status = QpStatus::iteration_limit;
     }
+    if (!is_finite(x)) {  // nor was the input: no step is the only one that is sure to be finite
+      solution.conflict.clear();
+      return QpStatus::iteration_limit;
+    }
     solution.step = x;
     for (int i = 0; i < count_; ++i) solution.active.push_back({active_[index(i)], multiplier_[index(i)]});
     return status;
@@ -110,6 +114,13 @@ class DualActiveSet {
       }
     }
     return true;
+  }
+
+  bool is_finite(const Vector6<Scalar>& x) const noexcept {
+    using std::isfinite;
+    Scalar sum = x.cwiseAbs().sum();
+    for (int i = 0; i < count_; ++i) sum += multiplier_[index(i)];
+    return isfinite(sum);
   }
 
   int most_violated(const Problem& problem, const Vector6<Scalar>& x) const noexcept {

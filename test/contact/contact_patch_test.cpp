@@ -1,0 +1,274 @@
+#include "feeler/contact/contact_patch.hpp"
+
+#include <boost/test/unit_test.hpp>
+
+#include <cmath>
+#include <initializer_list>
+#include <random>
+#include <vector>
+
+#include "feeler/proximity/separation.hpp"
+#include "feeler/spatial/pose.hpp"
+#include "support/random_tools.hpp"
+
+using feeler::ContactPatch;
+using feeler::FeaturePair;
+using feeler::PatchRows;
+using feeler::TriangleMesh;
+using namespace feeler_test;
+using Box = feeler::Box<double>;
+using Mesh = TriangleMesh<double>;
+
+namespace {
+
+constexpr double band = 2.5e-4;
+
+Mesh mesh_of(std::initializer_list<Vector> points, std::initializer_list<std::array<int, 3>> rows) {
+  feeler::Points<double> vertices(Eigen::Index(points.size()), 3);
+  feeler::Triangles triangles(Eigen::Index(rows.size()), 3);
+  Eigen::Index i = 0;
+  for (const Vector& p : points) vertices.row(i++) = p.transpose();
+  i = 0;
+  for (const auto& t : rows) triangles.row(i++) << t[0], t[1], t[2];
+  return {vertices, triangles};
+}
+
+/// The floor z = 0 within 1 m, in two triangles that meet in the line x = y.
+Mesh floor() {
+  return mesh_of({{-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}}, {{0, 1, 2}, {0, 2, 3}});
+}
+/// A roof whose ridge is the y axis; slopes of 45° and no bottom.
+Mesh roof() {
+  return mesh_of({{0, -1, 0}, {0, 1, 0}, {1, 0, -1}, {-1, 0, -1}}, {{0, 2, 1}, {0, 1, 3}});
+}
+/// A spike that points up, with its tip at the origin.
+Mesh spike() {
+  return mesh_of({{0, 0, 0}, {1, -1, -3}, {1, 1, -3}, {-1, 0, -3}}, {{0, 1, 2}, {0, 2, 3}, {0, 3, 1}});
+}
+
+struct Found {
+  bool has_rows = false;
+  PatchRows<double> rows;
+
+  int count(FeaturePair kind) const {
+    int n = 0;
+    for (const auto& row : rows) n += row.kind == kind ? 1 : 0;
+    return n;
+  }
+};
+
+template <class Tool>
+Found find(const Tool& tool, const Mesh& mesh, int triangle, const feeler::Pose<double>& pose,
+           bool keep_ghost = false, const Vector& reference = Vector::Zero()) {
+  const Eigen::Matrix3d axes = pose.rotation.toRotationMatrix();
+  // pose.translation is where the reference point is.
+  const Eigen::Matrix3d corners =
+      (axes.transpose() * (mesh.corners(triangle).colwise() - pose.translation)).colwise() + reference;
+  const auto closest = feeler::separation(tool, corners, {}, 1e-8);
+  ContactPatch<Tool, double> patch(tool, mesh, axes, reference, band);
+  Found found;
+  found.has_rows = patch.find(triangle, corners, closest, keep_ghost, found.rows);
+  return found;
+}
+
+feeler::Pose<double> at(const Vector& translation,
+                        const Eigen::Quaterniond& rotation = Eigen::Quaterniond::Identity()) {
+  return {translation, rotation};
+}
+Eigen::Quaterniond turn(double angle, const Vector& axis) {
+  return Eigen::Quaterniond(Eigen::AngleAxisd(angle, axis.normalized()));
+}
+
+}  // namespace
+
+BOOST_AUTO_TEST_SUITE(contact_patch)
+
+BOOST_AUTO_TEST_CASE(a_box_flat_on_a_triangle_has_its_four_bottom_vertices_on_it) {
+  const Mesh mesh = floor();
+  const Vector half(0.03, 0.02, 0.01);
+  const Box box(half);
+  for (const double gap : {1e-9, 1e-6, 1e-5, 0.0, -1e-9}) {
+    const Vector place(0.5, -0.5, half.z() + gap);  // in the first triangle, turned about the vertical
+    for (const double angle : {0.0, 0.3, 2.0}) {
+      const auto pose = at(place, turn(angle, Vector::UnitZ()));
+      const Found found = find(box, mesh, 0, pose);
+      BOOST_TEST(found.has_rows);
+      BOOST_TEST(found.rows.size() == 4);
+      BOOST_TEST(found.count(FeaturePair::vertex_face) == 4);
+      std::vector<Vector> arms;
+      for (const auto& row : found.rows) {
+        BOOST_TEST((row.normal - Vector::UnitZ()).norm() < 1e-15);
+        BOOST_TEST(std::abs(row.gap - gap) < 1e-16);
+        arms.push_back(pose.rotation.conjugate() * row.arm);
+        BOOST_TEST((arms.back().cwiseAbs() - half).norm() < 1e-15);
+        BOOST_TEST(arms.back().z() < 0);
+      }
+      for (std::size_t i = 0; i < arms.size(); ++i)
+        for (std::size_t k = 0; k < i; ++k) BOOST_TEST((arms[i] - arms[k]).norm() > 0.03);
+    }
+  }
+}
+
+BOOST_AUTO_TEST_CASE(arms_are_from_the_reference_point_and_normals_in_world_axes_wherever_the_scene_is) {
+  constexpr unsigned seed = 1;
+  BOOST_TEST_MESSAGE("seed " << seed);
+  std::mt19937 bits(seed);
+  const Box box(Vector(0.03, 0.02, 0.01));
+  for (int i = 0; i < 100; ++i) {
+    // The whole scene is turned and moved.
+    const Eigen::Quaterniond q = random_rotation(bits);
+    const Vector p = random_vector(bits);
+    const Mesh mesh =
+        mesh_of({p + q * Vector(-1, -1, 0), p + q * Vector(1, -1, 0), p + q * Vector(1, 1, 0)}, {{0, 1, 2}});
+    const Vector reference = 0.1 * random_vector(bits);
+    const Vector centre = p + q * Vector(0.5, -0.3, 0.01 + 1e-6);
+    const Found found = find(box, mesh, 0, at(centre + q * reference, q), false, reference);
+    BOOST_TEST_REQUIRE(found.rows.size() == 4);
+    for (const auto& row : found.rows) {
+      BOOST_TEST((row.normal - q * Vector::UnitZ()).norm() < 1e-13);
+      BOOST_TEST(std::abs(row.gap - 1e-6) < 1e-14);
+      const Vector corner = q.conjugate() * (centre + q * reference + row.arm - centre);
+      BOOST_TEST((corner.cwiseAbs() - Vector(0.03, 0.02, 0.01)).norm() < 1e-14);
+    }
+  }
+}
+
+BOOST_AUTO_TEST_CASE(a_box_on_a_spike_has_the_tip_in_its_face) {
+  const Mesh mesh = spike();
+  const Box box(Vector(0.1, 0.1, 0.1));
+  for (const double gap : {1e-6, 1e-5, 0.0}) {
+    for (int triangle = 0; triangle < 3; ++triangle) {
+      const auto pose = at(Vector(0.02, -0.03, 0.1 + gap), turn(0.4, Vector::UnitZ()));
+      const Found found = find(box, mesh, triangle, pose);
+      BOOST_TEST(found.has_rows);
+      BOOST_TEST_REQUIRE(found.rows.size() == 1);
+      const auto& row = found.rows[0];
+      BOOST_TEST((row.kind == FeaturePair::face_vertex));
+      BOOST_TEST((row.normal - Vector::UnitZ()).norm() < 1e-15);  // into the box
+      BOOST_TEST(std::abs(row.gap - gap) < 1e-15);
+      BOOST_TEST((row.arm + pose.translation).norm() < 1e-15);  // the tip is the origin
+    }
+  }
+}
+
+BOOST_AUTO_TEST_CASE(edges_that_cross_give_one_row_along_their_common_normal) {
+  // The box stands on an edge, across the ridge of the roof.
+  const Mesh mesh = roof();
+  const double h = 0.02;
+  const Box box(Vector(0.05, h, h));
+  for (const double gap : {1e-9, 1e-6, 1e-5}) {
+    for (const double angle : {0.0, 0.2, -0.7}) {
+      const double height = std::sqrt(2.0) * h + gap;
+      const auto pose = at(Vector(0.001, 0.002, height),
+                           turn(angle, Vector::UnitZ()) * turn(std::acos(-1.0) / 4, Vector::UnitX()));
+      for (int triangle = 0; triangle < 2; ++triangle) {
+        const Found found = find(box, mesh, triangle, pose);
+        BOOST_TEST(found.has_rows);
+        BOOST_TEST_REQUIRE(found.rows.size() == 1);
+        const auto& row = found.rows[0];
+        BOOST_TEST((row.kind == FeaturePair::edge_edge));
+        BOOST_TEST((row.normal - Vector::UnitZ()).norm() < 1e-9);
+        BOOST_TEST(std::abs(row.gap - gap) < 1e-15);
+        BOOST_TEST(std::abs(row.object_edge.y()) > 1 - 1e-12);
+        BOOST_TEST(row.tool_edge.cross(Vector(std::cos(angle), std::sin(angle), 0)).norm() < 1e-12);
+        // The point is on the tool's edge, above the ridge.
+        const Vector point = pose.translation + row.arm;
+        BOOST_TEST(std::abs(point.x()) < 1e-12);
+        BOOST_TEST(std::abs(point.z() - gap) < 1e-15);
+      }
+    }
+  }
+}
+
+BOOST_AUTO_TEST_CASE(parallel_edges_give_a_row_at_both_ends_of_the_interval_where_they_meet) {
+  const Mesh mesh = roof();
+  const double h = 0.02, gap = 1e-6;
+  const Box box(Vector(0.05, h, h));
+  // The box's long edge along the ridge, both of its ends on it.
+  const auto upright = turn(std::acos(0.0), Vector::UnitZ()) * turn(std::acos(-1.0) / 4, Vector::UnitX());
+  const Found found = find(box, mesh, 0, at(Vector(0, 0.3, std::sqrt(2.0) * h + gap), upright));
+  BOOST_TEST(found.has_rows);
+  BOOST_TEST_REQUIRE(found.rows.size() == 2);
+  for (const auto& row : found.rows) {
+    BOOST_TEST((row.normal - Vector::UnitZ()).norm() < 1e-9);
+    BOOST_TEST(std::abs(row.gap - gap) < 1e-14);
+    BOOST_TEST(std::abs(std::abs(row.arm.y()) - 0.05) < 1e-12);
+  }
+  BOOST_TEST(found.rows[0].arm.y() * found.rows[1].arm.y() < 0);
+  // Half of it beyond the end of the ridge at y = 1.
+  const Found end = find(box, mesh, 0, at(Vector(0, 1, std::sqrt(2.0) * h + gap), upright));
+  BOOST_TEST_REQUIRE(end.rows.size() == 2);
+  const double first = std::min(end.rows[0].arm.y(), end.rows[1].arm.y());
+  const double last = std::max(end.rows[0].arm.y(), end.rows[1].arm.y());
+  BOOST_TEST(std::abs(first + 0.05) < 1e-12);
+  BOOST_TEST(std::abs(last) < 1e-12);
+}
+
+BOOST_AUTO_TEST_CASE(a_neighbour_in_the_same_plane_gives_no_row_that_holds_the_tool_sideways) {
+  const Mesh mesh = floor();
+  const Box box(Vector(0.03, 0.02, 0.01));
+  constexpr unsigned seed = 2;
+  BOOST_TEST_MESSAGE("seed " << seed);
+  std::mt19937 bits(seed);
+  int ghosts = 0, kept = 0;
+  for (int i = 0; i < 2000; ++i) {
+    // About the diagonal, a little above the floor: flat, on an edge or on a vertex.
+    const double s = 0.5 * unit(bits), off = 0.06 * unit(bits);
+    Eigen::Quaterniond q = turn(3 * unit(bits), Vector::UnitZ());
+    if (i % 3 == 1) q = q * turn(0.3 * unit(bits), Vector::UnitX());
+    if (i % 3 == 2) q = q * turn(0.3 * unit(bits), random_direction(bits));
+    double low = 0;
+    for (int v = 0; v < 8; ++v) low = std::min(low, (q * box.vertex(v)).z());
+    const auto pose = at(Vector(s + off, s - off, magnitude(bits, -8, -5) - low), q);
+    for (int triangle = 0; triangle < 2; ++triangle) {
+      const Found found = find(box, mesh, triangle, pose);
+      BOOST_TEST(found.has_rows == !found.rows.empty());
+      for (const auto& row : found.rows)
+        if (row.gap < 1e-4) BOOST_TEST((row.normal - Vector::UnitZ()).norm() < 1e-5);
+      if (found.has_rows) continue;
+      ++ghosts;
+      const Found asked = find(box, mesh, triangle, pose, true);
+      BOOST_TEST(asked.has_rows);
+      BOOST_TEST(asked.rows.size() == 1);
+      kept += asked.rows.empty() ? 0 : 1;
+    }
+  }
+  BOOST_TEST(ghosts > 200);
+  BOOST_TEST(kept == ghosts);
+}
+
+BOOST_AUTO_TEST_CASE(the_rows_of_any_pair_are_separations_that_are_true_at_the_pose) {
+  constexpr unsigned seed = 3;
+  BOOST_TEST_MESSAGE("seed " << seed);
+  std::mt19937 bits(seed);
+  for (int i = 0; i < 2000; ++i) {
+    const auto tool = random_hull(bits, 4 + below(bits, 16));
+    const double gap = magnitude(bits, -7, -4);
+    const Shape shape = random_shape(bits);
+    const Eigen::Matrix3d corners = triangle_near(tool, bits, shape, gap);
+    const Mesh mesh = mesh_of({corners.col(0), corners.col(1), corners.col(2)}, {{0, 1, 2}});
+    const bool keeps_ghost = i % 2 == 0;
+    const Found found = find(tool, mesh, 0, {}, keeps_ghost);
+    // All edges and corners of a triangle alone stick out, so none is a ghost; but which corner of a needle
+    // is closest, rounding decides.
+    const bool is_plain = shape == Shape::ordinary || shape == Shape::small || shape == Shape::large;
+    BOOST_TEST_CONTEXT("pair " << i << " shape " << int(shape) << " gap " << gap) {
+      BOOST_TEST(found.has_rows == !found.rows.empty());
+      if (keeps_ghost || is_plain) BOOST_TEST(found.has_rows);
+      if (found.rows.empty()) continue;
+      double least = 1;
+      for (const auto& row : found.rows) {
+        BOOST_TEST(std::abs(row.normal.norm() - 1) < 1e-13);
+        least = std::min(least, row.gap);
+      }
+      // The closest row is no farther than the closest points, nor nearer, but for the rounding of directions
+      // at such a gap.
+      const double size = 0.2 + corners.cwiseAbs().maxCoeff();
+      const double rounding = 1e-9 + 1e-13 * size * size / gap;
+      BOOST_TEST(least <= gap * 1.002 + rounding);
+      BOOST_TEST(least >= gap * 0.999 - rounding);
+    }
+  }
+}
+
+BOOST_AUTO_TEST_SUITE_END()

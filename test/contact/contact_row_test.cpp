@@ -1,0 +1,160 @@
+#include "feeler/contact/contact_row.hpp"
+
+#include <boost/test/unit_test.hpp>
+
+#include <functional>
+#include <random>
+
+#include "support/random_geometry.hpp"
+
+using feeler::ContactRow;
+using feeler::FeaturePair;
+using namespace feeler_test;
+
+namespace {
+
+using Real = long double;
+using Wide = Eigen::Matrix<Real, 3, 1>;
+using Wide6 = Eigen::Matrix<Real, 6, 1>;
+using Separation = std::function<Real(const Wide6&)>;
+
+/// Rotation by a rotation vector, by Rodrigues' formula.
+Wide turned(const Wide& w, const Wide& v) {
+  const Real angle = w.norm();
+  if (angle == 0) return v;
+  const Wide axis = w / angle;
+  return std::cos(angle) * v + std::sin(angle) * axis.cross(v) + (1 - std::cos(angle)) * axis.dot(v) * axis;
+}
+
+struct Contact {
+  ContactRow<double> row;
+  Separation separation;  // of the step, from the definition of the pair
+};
+
+Contact vertex_face(std::mt19937& bits) {
+  ContactRow<double> row;
+  row.kind = FeaturePair::vertex_face;
+  row.normal = random_direction(bits);
+  row.arm = random_vector(bits);
+  row.gap = 1e-3 * unit(bits);
+  const Wide n = row.normal.cast<Real>(), vertex = row.arm.cast<Real>(),
+             on_plane = vertex - Real(row.gap) * n;
+  return {row,
+          [=](const Wide6& d) { return n.dot(Wide(d.head<3>()) + turned(d.tail<3>(), vertex) - on_plane); }};
+}
+
+Contact face_vertex(std::mt19937& bits) {
+  ContactRow<double> row;
+  row.kind = FeaturePair::face_vertex;
+  row.normal = random_direction(bits);  // from the object to the tool: into the tool's face
+  row.arm = random_vector(bits);        // the object's vertex
+  row.gap = 1e-3 * unit(bits);
+  const Wide n = row.normal.cast<Real>(), vertex = row.arm.cast<Real>(), on_face = vertex + Real(row.gap) * n;
+  return {row, [=](const Wide6& d) {
+            return turned(d.tail<3>(), n).dot(Wide(d.head<3>()) + turned(d.tail<3>(), on_face) - vertex);
+          }};
+}
+
+/// @param gap  the row's curvature is that at contact: it leaves out a term of gap / sine²
+Contact edge_edge(std::mt19937& bits, double gap) {
+  ContactRow<double> row;
+  row.kind = FeaturePair::edge_edge;
+  row.object_edge = random_direction(bits);
+  do {
+    row.tool_edge = random_direction(bits);
+  } while (row.tool_edge.cross(row.object_edge).norm() < 0.2);
+  row.normal = row.tool_edge.cross(row.object_edge).normalized() * (below(bits, 2) == 0 ? 1 : -1);
+  row.arm = random_vector(bits);
+  row.gap = gap;
+  const Wide u = row.object_edge.cast<Real>(), v = row.tool_edge.cast<Real>(), on_tool = row.arm.cast<Real>();
+  const Wide n =
+      v.cross(u).normalized() * (row.normal.dot(row.tool_edge.cross(row.object_edge)) > 0 ? 1 : -1);
+  const Wide on_object = on_tool - Real(gap) * n;
+  return {row, [=](const Wide6& d) {
+            Wide normal = turned(d.tail<3>(), v).cross(u).normalized();
+            if (normal.dot(n) < 0) normal = -normal;
+            return normal.dot(Wide(d.head<3>()) + turned(d.tail<3>(), on_tool) - on_object);
+          }};
+}
+
+void check_gradient(const Contact& contact, Real tolerance) {
+  const Real h = 1e-5L;
+  const auto gradient = contact.row.gradient();
+  BOOST_TEST(std::abs(contact.separation(Wide6::Zero()) - Real(contact.row.gap)) < 1e-15L);
+  for (int i = 0; i < 6; ++i) {
+    const Wide6 step = Wide6::Unit(i) * h;
+    const Real slope = (contact.separation(step) - contact.separation(-step)) / (2 * h);
+    BOOST_TEST(std::abs(slope - Real(gradient[i])) < tolerance);
+  }
+}
+
+/// @return the largest difference of an element
+Real curvature_error(const Contact& contact) {
+  const Real h = 1e-5L;  // differences err by h² and by rounding / h², both about 1e-9
+  const auto curvature = contact.row.curvature();
+  Real worst = 0;
+  for (int i = 0; i < 6; ++i)
+    for (int k = 0; k < 6; ++k) {
+      const Wide6 a = Wide6::Unit(i) * h, b = Wide6::Unit(k) * h;
+      const Real second = (contact.separation(a + b) - contact.separation(a - b) - contact.separation(b - a) +
+                           contact.separation(-a - b)) /
+                          (4 * h * h);
+      worst = std::max(worst, std::abs(second - Real(curvature(i, k))));
+    }
+  return worst;
+}
+
+}  // namespace
+
+BOOST_AUTO_TEST_SUITE(contact_row)
+
+BOOST_AUTO_TEST_CASE(gradient_and_curvature_of_a_vertex_on_a_face_are_derivatives_of_its_height) {
+  constexpr unsigned seed = 1;
+  BOOST_TEST_MESSAGE("seed " << seed);
+  std::mt19937 bits(seed);
+  for (int i = 0; i < 300; ++i) {
+    const Contact contact = vertex_face(bits);
+    check_gradient(contact, 1e-9L);
+    BOOST_TEST(curvature_error(contact) < 1e-7L);
+  }
+}
+
+BOOST_AUTO_TEST_CASE(gradient_and_curvature_of_a_face_on_a_vertex_are_derivatives_of_its_depth_in_the_face) {
+  constexpr unsigned seed = 2;
+  BOOST_TEST_MESSAGE("seed " << seed);
+  std::mt19937 bits(seed);
+  for (int i = 0; i < 300; ++i) {
+    const Contact contact = face_vertex(bits);
+    check_gradient(contact, 1e-9L);
+    BOOST_TEST(curvature_error(contact) < 1e-7L);
+  }
+}
+
+BOOST_AUTO_TEST_CASE(
+    gradient_and_curvature_of_crossing_edges_are_derivatives_of_the_distance_of_their_lines) {
+  constexpr unsigned seed = 3;
+  BOOST_TEST_MESSAGE("seed " << seed);
+  std::mt19937 bits(seed);
+  for (int i = 0; i < 300; ++i) {
+    const Contact contact = edge_edge(bits, 0);
+    check_gradient(contact, 1e-8L);
+    BOOST_TEST(curvature_error(contact) < 1e-6L);
+    // Off contact the normal's own curvature is left out: at most gap · |δn|², |δn| ≤ |w| / sine.
+    const double gap = 1e-3 * unit(bits);
+    const Contact apart = edge_edge(bits, gap);
+    check_gradient(apart, 1e-8L);
+    const Real sine = Real(apart.row.tool_edge.cross(apart.row.object_edge).norm());
+    BOOST_TEST(curvature_error(apart) < 1e-6L + 2 * std::abs(Real(gap)) / (sine * sine));
+  }
+}
+
+BOOST_AUTO_TEST_CASE(curvature_is_symmetric) {
+  std::mt19937 bits(4);
+  for (int i = 0; i < 100; ++i)
+    for (const Contact& contact : {vertex_face(bits), face_vertex(bits), edge_edge(bits, 1e-6)}) {
+      const auto curvature = contact.row.curvature();
+      BOOST_TEST((curvature - curvature.transpose()).norm() < 1e-13);
+    }
+}
+
+BOOST_AUTO_TEST_SUITE_END()

@@ -1,0 +1,157 @@
+#include "feeler/proximity/gjk.hpp"
+
+#include <boost/test/unit_test.hpp>
+
+#include <random>
+
+#include "feeler/proximity/separation.hpp"
+#include "support/random_tools.hpp"
+
+using feeler::ClosestFeatures;
+using feeler::ClosestPoints;
+using feeler::test::closest_features;
+using feeler::test::WidePair;
+using feeler::test::WideReal;
+using feeler::test::WideTool;
+using feeler::test::WideVector;
+using namespace feeler_test;
+
+namespace {
+
+constexpr double touching = 1e-12;  // far below every gap here
+
+struct Worst {
+  WideReal distance = 0, normal = 0, points = 0, features = 0;
+};
+
+/// Compares one answer with the brute force; both in the tool frame.
+template <class Tool>
+void check(const Tool& tool, const Eigen::Matrix3d& corners, const ClosestPoints<double>& found,
+           const WidePair& expected, Worst& worst) {
+  BOOST_TEST_REQUIRE(!found.is_touching);
+  const WideTool wide_tool(tool);
+  const WideReal size = 0.2L + WideReal(corners.cwiseAbs().maxCoeff());
+  const WideVector normal = found.normal.cast<WideReal>();
+  BOOST_TEST(std::abs(normal.norm() - 1) < 1e-15L);
+  // A proof: the normal alone shows a separation of what is returned, and no separation exceeds the distance.
+  const WideReal shown = wide_tool.separation_along(normal, wide(corners));
+  BOOST_TEST(std::abs(WideReal(found.distance) - shown) <= 1e-15L * size);
+  BOOST_TEST(WideReal(found.distance) <= expected.distance + 1e-15L * size);
+  // The direction of a gap g is known to eps·size/g, and tilts a body of that size by as much.
+  const WideReal rounding = WideReal(std::numeric_limits<double>::epsilon()) * size *
+                            std::max(WideReal(1), size / expected.distance);
+  worst.distance = std::max(worst.distance, (expected.distance - WideReal(found.distance)) / rounding);
+  // The points are as far apart as they may be, and lie in the shapes.
+  const WideVector x = found.tool_point.cast<WideReal>(), y = found.triangle_point.cast<WideReal>();
+  worst.points = std::max(worst.points, std::abs((x - y).norm() - expected.distance) / rounding);
+  const auto t = wide(corners);
+  worst.features = std::max(worst.features,
+                            (feeler::test::closest_on_wide_triangle(y, t[0], t[1], t[2]) - y).norm() / size);
+  for (const auto& face : wide_tool.faces) {
+    const auto at = [&](std::size_t i) { return wide_tool.vertices[std::size_t(face[i])]; };
+    const WideVector outward = (at(1) - at(0)).cross(at(2) - at(0)).normalized();
+    worst.features = std::max(worst.features, outward.dot(x - at(0)) / size);
+  }
+}
+
+template <class MakeTool>
+Worst check_random_pairs(unsigned seed, int count, const MakeTool& make_tool) {
+  BOOST_TEST_MESSAGE("seed " << seed);
+  std::mt19937 bits(seed);
+  Worst worst;
+  for (int i = 0; i < count; ++i) {
+    const auto tool = make_tool(bits);
+    const Shape shape = random_shape(bits);
+    const Eigen::Matrix3d corners = triangle_near(tool, bits, shape, magnitude(bits, -9, 0));
+    const WidePair expected = closest_features(WideTool(tool), wide(corners));
+    BOOST_TEST_CONTEXT("pair " << i << " shape " << int(shape) << " gap " << expected.distance) {
+      const auto cold = feeler::gjk(tool, corners, {}, touching);
+      check(tool, corners, cold, expected, worst);
+      // From its own features and from any others: the same distance.
+      check(tool, corners, feeler::gjk(tool, corners, cold.features, touching), expected, worst);
+      ClosestFeatures warm;
+      warm.size = 1 + below(bits, 3);
+      for (std::size_t k = 0; k < 3; ++k) {
+        warm.tool_vertices[k] = short(below(bits, tool.vertex_count()));
+        warm.corners[k] = short(below(bits, 3));
+      }
+      check(tool, corners, feeler::gjk(tool, corners, warm, touching), expected, worst);
+    }
+  }
+  BOOST_TEST_MESSAGE("worst: distance " << worst.distance << " roundings, points " << worst.points
+                                        << ", outside their shapes " << worst.features);
+  return worst;
+}
+
+void check_worst(const Worst& worst) {
+  BOOST_TEST(worst.distance < 5000);
+  BOOST_TEST(worst.points < 5000);
+  BOOST_TEST(worst.features < 1e-14L);
+}
+
+}  // namespace
+
+BOOST_AUTO_TEST_SUITE(gjk)
+
+BOOST_AUTO_TEST_CASE(distance_of_a_segment_is_that_of_brute_force_from_any_start) {
+  check_worst(check_random_pairs(1, 4000, random_segment));
+}
+BOOST_AUTO_TEST_CASE(distance_of_a_box_is_that_of_brute_force_from_any_start) {
+  check_worst(check_random_pairs(2, 4000, random_box));
+}
+BOOST_AUTO_TEST_CASE(distance_of_a_hull_is_that_of_brute_force_from_any_start) {
+  check_worst(
+      check_random_pairs(3, 2000, [](std::mt19937& bits) { return random_hull(bits, 4 + below(bits, 28)); }));
+}
+
+BOOST_AUTO_TEST_CASE(faces_flat_on_each_other_keep_the_normal_of_the_face) {
+  const feeler::Box<double> box(Vector(0.03, 0.02, 0.01));
+  Eigen::Matrix3d corners;
+  for (const double gap : {1e-6, 1e-3, 1.0}) {
+    corners << -0.1, 0.1, 0.01, -0.1, -0.1, 0.1, -0.01 - gap, -0.01 - gap, -0.01 - gap;
+    const auto found = feeler::gjk(box, corners, {}, touching);
+    BOOST_TEST((found.normal - Vector::UnitZ()).norm() < 1e-15 / gap);
+    BOOST_TEST(std::abs(found.distance - gap) < 1e-16 / gap);
+  }
+}
+
+BOOST_AUTO_TEST_CASE(shapes_that_overlap_are_touching_from_any_start) {
+  constexpr unsigned seed = 4;
+  BOOST_TEST_MESSAGE("seed " << seed);
+  std::mt19937 bits(seed);
+  int overlapping = 0;
+  for (int i = 0; i < 3000; ++i) {
+    const auto box = random_box(bits);
+    const Eigen::Matrix3d corners = random_triangle(bits, Shape::ordinary);
+    if (!feeler::test::intersect(WideTool(box), wide(corners))) continue;
+    ++overlapping;
+    ClosestFeatures warm;
+    warm.size = below(bits, 4);
+    for (std::size_t k = 0; k < 3; ++k) {
+      warm.tool_vertices[k] = short(below(bits, 8));
+      warm.corners[k] = short(below(bits, 3));
+    }
+    const auto found = feeler::gjk(box, corners, warm, 1e-8);
+    // Touching, or at least no separation claimed that there is none of.
+    BOOST_TEST((found.is_touching || found.distance <= 0));
+    BOOST_TEST(feeler::separation(box, corners, warm, 1e-8).distance <= 1e-16);
+  }
+  BOOST_TEST(overlapping > 500);
+}
+
+BOOST_AUTO_TEST_CASE(an_answer_does_not_change_with_the_unit_if_that_is_a_power_of_two) {
+  constexpr unsigned seed = 5;
+  BOOST_TEST_MESSAGE("seed " << seed);
+  std::mt19937 bits(seed);
+  for (int i = 0; i < 500; ++i) {
+    const auto box = random_box(bits);
+    const feeler::Box<double> larger(box.half_extents() * 1024);
+    const Eigen::Matrix3d corners = triangle_near(box, bits, Shape::ordinary, magnitude(bits, -9, -1));
+    const auto a = feeler::gjk(box, corners, {}, touching);
+    const auto b = feeler::gjk(larger, Eigen::Matrix3d(corners * 1024), {}, touching * 1024);
+    BOOST_TEST(a.distance * 1024 == b.distance);
+    BOOST_TEST(a.normal == b.normal);
+  }
+}
+
+BOOST_AUTO_TEST_SUITE_END()

@@ -1,0 +1,294 @@
+#include "feeler/proximity/passage.hpp"
+
+#include <boost/test/unit_test.hpp>
+
+#include <limits>
+#include <random>
+#include <string>
+
+#include "support/random_motions.hpp"
+
+using feeler::Clearance;
+using feeler::PassedTriangle;
+using feeler::test::CheckedTool;
+using feeler::test::WideReal;
+using feeler::test::WideTool;
+using feeler::test::WideTriangle;
+using feeler::test::WideVector;
+using namespace feeler_test;
+
+namespace {
+
+/// A motion past one triangle, whose corners are relative to the start of the reference point.
+template <class Tool>
+struct Scene {
+  RandomMotion<Tool> random;
+  Eigen::Matrix3d corners;
+
+  /// A triangle at `gap` from the tool at its start.
+  Scene(std::mt19937& bits, const Tool& tool, Shape shape, double gap) : random(bits, tool) {
+    const Eigen::Matrix3d in_tool = triangle_near(tool, bits, shape, gap);
+    corners = random.pose.rotation.toRotationMatrix() * (in_tool.colwise() - random.reference);
+  }
+
+  WideTriangle triangle() const { return wide(corners); }
+  feeler::test::WideMotion relative() const {
+    auto motion = random.wide();
+    motion.start.setZero();
+    return motion;
+  }
+  /// The deepest penetration on [0, time] at `samples` times.
+  WideReal depth(double time, int samples, WideReal enough) const {
+    const CheckedTool checked = feeler::test::checked_tool(random.tool);
+    WideReal deepest = 0;
+    for (int i = 0; i <= samples; ++i) {
+      const auto pose = relative().pose_at(WideReal(time) * WideReal(i) / WideReal(samples));
+      std::array<WideVector, 3> in_tool;
+      for (std::size_t k = 0; k < 3; ++k)
+        in_tool[k] = pose.rotation.conjugate() * (triangle()[k] - pose.translation);
+      const WideReal limit = std::max(deepest, enough);
+      const WideReal here = feeler::test::detail::depth_in_triangle(checked, in_tool, limit);
+      if (here > limit) deepest = here;
+    }
+    return deepest;
+  }
+  /// The least distance on the whole motion at `samples` times; 0 where the shapes meet.
+  WideReal clearance(int samples) const {
+    const WideTool tool(random.tool);
+    WideReal least = std::numeric_limits<WideReal>::infinity();
+    for (int i = 0; i <= samples; ++i) {
+      const WideTool here = relative().tool_at(tool, WideReal(i) / WideReal(samples));
+      if (feeler::test::intersect(here, triangle())) return 0;
+      least = std::min(least, feeler::test::closest_features(here, triangle()).distance);
+    }
+    return least;
+  }
+};
+
+struct Tally {
+  int blocked = 0, free = 0;
+  WideReal deepest = 0;
+  double certified = 0;
+};
+
+template <class Tool>
+void check_passage(const Scene<Tool>& scene, bool is_exact, bool knows_normal, Tally& tally) {
+  const Clearance<double> clearance;
+  const auto moving = scene.random.moving();
+  const auto start = moving.frame_at(0), end = moving.frame_at(1);
+  PassedTriangle<double> triangle{scene.corners, Vector::Zero(), {}, is_exact};
+  if (knows_normal) {
+    const auto closest =
+        feeler::separation(scene.random.tool, moving.in_tool(scene.corners, start), {}, clearance.touching);
+    triangle.normal = start.rotation * closest.normal;
+    triangle.features = closest.features;
+  }
+  int work = 0;
+  const auto passage = feeler::pass(moving, triangle, start, end, clearance, work);
+  BOOST_TEST((passage.time >= 0 && passage.time <= 1));
+  BOOST_TEST((passage.is_blocked || passage.time == 1));
+  BOOST_TEST(work <= 30);
+  (passage.is_blocked ? tally.blocked : tally.free)++;
+  tally.certified += passage.time;
+  if (passage.time > 0) {
+    const WideReal allowance = WideReal(clearance.allowance) * 1.01L;
+    const WideReal depth = scene.depth(passage.time, 150, allowance);
+    tally.deepest = std::max(tally.deepest, depth);
+    if (depth > allowance) BOOST_ERROR("certified up to " << passage.time << ", yet " << depth << " m deep");
+  }
+}
+
+/// Motions that end or start near contact, which long and free ones seldom do.
+enum class Kind { any, tick, rolling, spin, along_the_face };
+
+template <class Tool>
+Scene<Tool> random_scene(std::mt19937& bits, const Tool& tool, Kind kind) {
+  const double gap = below(bits, 6) == 0 ? 0.0 : magnitude(bits, -9, kind == Kind::any ? -0.5 : -4);
+  Scene<Tool> scene(bits, tool, random_shape(bits), gap);
+  auto& motion = scene.random.motion;
+  const auto closest =
+      feeler::test::closest_features(scene.relative().tool_at(WideTool(tool), 0), scene.triangle());
+  const Vector point = closest.on_first.template cast<double>();
+  const WideVector between = closest.on_first - closest.on_second;
+  const Vector normal = closest.distance > 0 ? Vector((between / closest.distance).template cast<double>())
+                                             : random_direction(bits);
+  switch (kind) {
+    case Kind::any:
+      break;
+    case Kind::tick:
+      motion.linear = magnitude(bits, -6, -3) * random_direction(bits);
+      motion.angular = magnitude(bits, -5, -2) * random_direction(bits);
+      break;
+    case Kind::rolling: {  // about the contact point, as edges roll over each other
+      motion.angular = magnitude(bits, -4, 0) * random_direction(bits);
+      motion.linear = (-motion.angular).cross(point) + magnitude(bits, -9, -6) * random_direction(bits);
+      break;
+    }
+    case Kind::spin:
+      motion.linear.setZero();
+      motion.angular = 3.14159 * fraction(bits) * random_direction(bits);
+      break;
+    case Kind::along_the_face: {
+      const Vector along = random_direction(bits).cross(normal);
+      motion.linear = magnitude(bits, -5, -1) * along;
+      motion.angular =
+          below(bits, 2) == 0 ? Vector(Vector::Zero()) : Vector(magnitude(bits, -4, 0.4) * normal);
+      break;
+    }
+  }
+  return scene;
+}
+
+template <class MakeTool>
+void check_kind(unsigned seed, int count, Kind kind, const MakeTool& make_tool) {
+  BOOST_TEST_MESSAGE("seed " << seed);
+  std::mt19937 bits(seed);
+  Tally tally;
+  for (int i = 0; i < count; ++i) {
+    const auto scene = random_scene(bits, make_tool(bits), kind);
+    const bool is_exact = below(bits, 2) == 0, knows_normal = below(bits, 2) == 0;
+    BOOST_TEST_CONTEXT("scene " << i << " kind " << int(kind)) {
+      check_passage(scene, is_exact, knows_normal, tally);
+    }
+  }
+  BOOST_TEST_MESSAGE("kind " << int(kind) << ": " << tally.free << " free, " << tally.blocked << " blocked, "
+                             << tally.certified / count << " certified on average, deepest "
+                             << tally.deepest);
+  BOOST_TEST(tally.free > count / 50);
+  BOOST_TEST(tally.blocked > count / 50);
+}
+
+const auto make_hull = [](std::mt19937& bits) { return random_hull(bits, 4 + below(bits, 12)); };
+constexpr std::array<Kind, 5> kinds{Kind::any, Kind::tick, Kind::rolling, Kind::spin, Kind::along_the_face};
+
+}  // namespace
+
+BOOST_AUTO_TEST_SUITE(passage)
+
+BOOST_AUTO_TEST_CASE(no_sample_of_a_box_on_a_certified_way_is_deeper_than_the_allowance) {
+  for (const Kind kind : kinds) check_kind(10 + unsigned(kind), 700, kind, random_box);
+}
+BOOST_AUTO_TEST_CASE(no_sample_of_a_segment_on_a_certified_way_is_deeper_than_the_allowance) {
+  for (const Kind kind : kinds) check_kind(20 + unsigned(kind), 700, kind, random_segment);
+}
+BOOST_AUTO_TEST_CASE(no_sample_of_a_hull_on_a_certified_way_is_deeper_than_the_allowance) {
+  for (const Kind kind : kinds) check_kind(30 + unsigned(kind), 150, kind, make_hull);
+}
+
+BOOST_AUTO_TEST_CASE(a_motion_with_clearance_is_free) {
+  constexpr unsigned seed = 40;
+  BOOST_TEST_MESSAGE("seed " << seed);
+  std::mt19937 bits(seed);
+  for (const Kind kind : {Kind::tick, Kind::spin, Kind::any}) {
+    int free = 0, clear = 0;
+    while (clear < 300) {
+      const auto scene = random_scene(bits, random_box(bits), kind);
+      if (!(scene.clearance(60) > 1e-5L)) continue;
+      ++clear;
+      const auto moving = scene.random.moving();
+      int work = 0;
+      const PassedTriangle<double> triangle{scene.corners, Vector::Zero(), {}, true};
+      free +=
+          pass(moving, triangle, moving.frame_at(0), moving.frame_at(1), Clearance<double>{}, work).is_blocked
+              ? 0
+              : 1;
+    }
+    BOOST_TEST_MESSAGE("kind " << int(kind) << ": " << free << " of " << clear << " free");
+    // A spin of up to π sweeps so much that steps run out sooner.
+    BOOST_TEST(free * 100 >= clear * (kind == Kind::spin ? 95 : 99));
+  }
+}
+
+BOOST_AUTO_TEST_CASE(a_blocked_motion_is_certified_up_to_just_before_the_contact) {
+  // A box falls on a floor 3 mm below, without turning: contact is at a known time.
+  const feeler::Box<double> box(Vector(0.03, 0.02, 0.01));
+  const Clearance<double> clearance;
+  for (const double fall : {4e-3, 1e-2, 0.3}) {
+    const feeler::MovingTool<feeler::Box<double>> moving(box, Vector::Zero(), 0.04, {},
+                                                         {Vector(0, 0, -fall), Vector::Zero()});
+    Eigen::Matrix3d corners;
+    corners << -9, 9, 0.1, -9, -9, 9, -0.013, -0.013, -0.013;
+    int work = 0;
+    const auto passage = pass(moving, {corners, Vector::Zero(), {}, true}, moving.frame_at(0),
+                              moving.frame_at(1), clearance, work);
+    BOOST_TEST(passage.is_blocked);
+    BOOST_TEST(passage.time * fall <= 3e-3 - clearance.kept / 2);
+    BOOST_TEST(passage.time * fall >= 3e-3 - 2 * clearance.kept - clearance.resolution);
+    BOOST_TEST((passage.normal - Vector::UnitZ()).norm() < 1e-7);
+  }
+}
+
+BOOST_AUTO_TEST_CASE(an_overlap_may_stay_but_not_grow) {
+  const feeler::Box<double> box(Vector(0.03, 0.02, 0.01));
+  const Clearance<double> clearance;
+  Eigen::Matrix3d corners;
+  corners << -9, 9, 0.1, -9, -9, 9, -0.01 + 4e-12, -0.01 + 4e-12, -0.01 + 4e-12;
+  for (const double fall : {-1e-3, 0.0, 1e-6}) {
+    const feeler::MovingTool<feeler::Box<double>> moving(box, Vector::Zero(), 0.04, {},
+                                                         {Vector(0.1, 0, -fall), Vector::Zero()});
+    int work = 0;
+    const auto passage = pass(moving, {corners, Vector::UnitZ(), {}, true}, moving.frame_at(0),
+                              moving.frame_at(1), clearance, work);
+    BOOST_TEST(passage.is_blocked == (fall > 0));
+    BOOST_TEST(passage.time * fall <= 2 * clearance.allowance);
+  }
+}
+
+BOOST_AUTO_TEST_CASE(a_plane_that_turns_holds_only_where_the_samples_are_apart) {
+  constexpr unsigned seed = 41;
+  BOOST_TEST_MESSAGE("seed " << seed);
+  std::mt19937 bits(seed);
+  int held = 0, meeting = 0;
+  for (int i = 0; i < 6000; ++i) {
+    const auto scene = random_scene(bits, random_box(bits), kinds[std::size_t(below(bits, 5))]);
+    const auto moving = scene.random.moving();
+    const auto start = moving.frame_at(0), end = moving.frame_at(1);
+    const auto first = feeler::separation(scene.random.tool, moving.in_tool(scene.corners, start), {}, 1e-8);
+    const auto last = feeler::separation(scene.random.tool, moving.in_tool(scene.corners, end), {}, 1e-8);
+    const bool holds = feeler::detail::turning_plane_holds<feeler::Box<double>>(
+        moving, scene.corners, {start.rotation * first.normal, first.distance}, start,
+        {end.rotation * last.normal, last.distance}, end, 0.0);
+    const WideReal depth = scene.depth(1, 60, 1e-15L);
+    held += holds ? 1 : 0;
+    meeting += depth > 1e-15L ? 1 : 0;
+    BOOST_TEST((!holds || depth <= 1e-15L));
+  }
+  BOOST_TEST_MESSAGE(held << " held, " << meeting << " met");
+  BOOST_TEST(held > 1000);
+  BOOST_TEST(meeting > 500);
+}
+
+BOOST_AUTO_TEST_CASE(a_plane_that_turns_follows_edges_that_roll_where_no_fixed_plane_does) {
+  // Two edges that cross at right angles, 1 µm apart; the tool's rolls over the other by 8 mrad.
+  const feeler::Segment<double> line(Vector(-0.1, 0, 0), Vector(0.1, 0, 0));
+  Eigen::Matrix3d corners;
+  corners << 0, 0, 0, -0.1, 0.1, 0, -1e-6, -1e-6, -0.2;
+  const feeler::MovingTool<feeler::Segment<double>> moving(line, Vector::Zero(), 0.1, {},
+                                                           {Vector::Zero(), Vector(0, 8e-3, 0)});
+  const auto start = moving.frame_at(0), end = moving.frame_at(1);
+  const feeler::detail::HeldPlane<double> first{Vector::UnitZ(), 1e-6},
+      last{Vector(std::sin(8e-3), 0, std::cos(8e-3)), 1e-6 * std::cos(8e-3)};
+  BOOST_TEST(feeler::detail::held_part(moving, corners, first, start, end, 1e-7, true) < 1);
+  BOOST_TEST(feeler::detail::held_part(moving, corners, last, end, start, 1e-7, false) < 1);
+  BOOST_TEST(feeler::detail::turning_plane_holds(moving, corners, first, start, last, end, 1e-7));
+  int work = 0;
+  BOOST_TEST(
+      !pass(moving, {corners, Vector::Zero(), {}, true}, start, end, Clearance<double>{}, work).is_blocked);
+  BOOST_TEST(work == 2);
+}
+
+BOOST_AUTO_TEST_CASE(
+    required_separation_never_exceeds_what_there_is_and_falls_no_further_than_twice_the_allowance) {
+  const Clearance<double> clearance;
+  double last = -std::numeric_limits<double>::infinity();
+  for (double start = -1e-9; start < 1e-6; start += 1e-12) {
+    const double required = clearance.required(start);
+    BOOST_TEST((required <= clearance.kept && required >= -2 * clearance.allowance));
+    if (start > -clearance.allowance) BOOST_TEST(required <= start);
+    BOOST_TEST(required >= last);
+    last = required;
+  }
+  BOOST_TEST(clearance.required(1) == clearance.kept);
+}
+
+BOOST_AUTO_TEST_SUITE_END()

@@ -1,0 +1,237 @@
+#include "feeler/proximity/sweep.hpp"
+
+#include <boost/test/unit_test.hpp>
+
+#include <limits>
+#include <random>
+#include <set>
+#include <span>
+#include <vector>
+
+#include "support/allocation_count.hpp"
+#include "support/random_motions.hpp"
+
+using feeler::Clearance;
+using feeler::KnownTriangle;
+using feeler::PlaneCache;
+using feeler::Sweep;
+using feeler::TriangleMesh;
+using feeler::test::CheckedObject;
+using feeler::test::WideReal;
+using feeler::test::WideTool;
+using namespace feeler_test;
+using Box = feeler::Box<double>;
+
+namespace {
+
+/// A soup of triangles of all shapes in a cube of half a metre, `offset` from the origin.
+struct Soup {
+  Soup(std::mt19937& bits, int count, const Vector& offset) : vertices(3 * count, 3), triangles(count, 3) {
+    for (int i = 0; i < count; ++i) {
+      const Vector centre = 0.5 * random_vector(bits);
+      const Eigen::Matrix3d corners = 0.5 * random_triangle(bits, random_shape(bits));
+      for (int k = 0; k < 3; ++k) {
+        vertices.row(3 * i + k) = (offset + centre + corners.col(k)).transpose();
+        triangles(i, k) = 3 * i + k;
+      }
+    }
+  }
+  feeler::Points<double> vertices;
+  feeler::Triangles triangles;
+};
+
+struct Tally {
+  int blocked = 0, free = 0, known = 0, collided = 0;
+  WideReal deepest = 0;
+};
+
+/// Random motions from free poses: certified times against samples, blockers against distances.
+void check_soup(unsigned seed, int triangles, const Vector& offset, int count, WideReal rounding) {
+  BOOST_TEST_MESSAGE("seed " << seed);
+  std::mt19937 bits(seed);
+  const Soup soup(bits, triangles, offset);
+  const TriangleMesh<double> mesh(soup.vertices, soup.triangles);
+  const CheckedObject object(soup.vertices, soup.triangles);
+  PlaneCache<double> planes;  // kept from motion to motion, as the renderer does
+  Tally tally;
+  for (int i = 0; i < count; ++i) {
+    const Box box(
+        Vector(magnitude(bits, -2.3, -1.3), magnitude(bits, -2.3, -1.3), magnitude(bits, -2.3, -1.3)));
+    RandomMotion<Box> random(bits, box);
+    random.pose.translation += offset + 0.4 * random_vector(bits);
+    if (i % 8 == 0) random.motion.linear = 1e3 * random_direction(bits);  // teleports
+    if (i % 8 == 1) {                                                     // ticks
+      random.motion.linear = 2e-4 * random_direction(bits);
+      random.motion.angular = 2e-3 * random_direction(bits);
+    }
+    const auto checked = feeler::test::checked_tool(box);
+    if (deepest_penetration(object, checked, random.wide().pose_at(0)).depth > 0) continue;
+
+    Clearance<double> clearance;
+    clearance.allowance = std::max(clearance.allowance, double(rounding));
+    const auto moving = random.moving();
+    std::vector<KnownTriangle<double>> known;
+    if (i % 2 == 0) {  // some triangles are known from before
+      for (int k = 0; k < 5; ++k) {
+        const int t = below(bits, triangles);
+        if (std::any_of(known.begin(), known.end(), [t](const auto& other) { return other.triangle == t; }))
+          continue;
+        const Eigen::Matrix3d corners = mesh.corners(t).colwise() - moving.origin();
+        const auto closest =
+            feeler::separation(box, moving.in_tool(corners, moving.frame_at(0)), {}, clearance.touching);
+        known.push_back({t, {corners, moving.frame_at(0).rotation * closest.normal, closest.features, true}});
+      }
+    }
+    int work = 0;
+    Sweep<Box> sweep(planes, clearance);
+    const auto result = sweep.certify(mesh, moving, std::span<const KnownTriangle<double>>(known), work,
+                                      std::numeric_limits<int>::max());
+    BOOST_TEST_CONTEXT("motion " << i << " from seed " << seed) {
+      BOOST_TEST(!result.is_exhausted);
+      BOOST_TEST((result.time >= 0 && result.time <= 1));
+      BOOST_TEST((result.blockers.empty() == (result.time == 1) || !result.blockers.empty()));
+      (result.blockers.empty() ? tally.free : tally.blocked)++;
+      // No sample on the certified way collides.
+      constexpr int samples = 60;
+      for (int k = 0; k <= samples; ++k) {
+        const auto pose = random.wide().pose_at(WideReal(result.time) * WideReal(k) / samples);
+        const auto found = deepest_penetration(object, checked, pose);
+        tally.deepest = std::max(tally.deepest, found.depth);
+        if (found.depth > WideReal(clearance.allowance) * 1.01L)
+          BOOST_ERROR("certified up to " << result.time << ", yet " << found.depth << " m deep in "
+                                         << found.triangle << " at sample " << k);
+      }
+      // Every blocker comes no earlier than the certified time, once, and lies within what blocked could not
+      // resolve.
+      std::set<int> names;
+      double first = 1;
+      for (const auto& blocker : result.blockers) {
+        BOOST_TEST(names.insert(blocker.triangle).second);
+        BOOST_TEST(blocker.time >= result.time);
+        first = std::min(first, blocker.time);
+        const auto at = random.wide().tool_at(WideTool(box), WideReal(blocker.time));
+        const auto corners = wide(mesh.corners(blocker.triangle));
+        const WideReal distance =
+            feeler::test::intersect(at, corners) ? WideReal(0) : closest_features(at, corners).distance;
+        // The rest of the motion brings it no nearer than it moves; a blocker out of reach would be none.
+        BOOST_TEST(distance <= WideReal(moving.length() * (1 - blocker.time)) + 1e-6L);
+        const WideReal fast = WideReal(moving.length());
+        if (fast < 1e-3L) {
+          ++tally.known;
+          BOOST_TEST(distance <= fast / 4 + 1e-6L);
+        }
+      }
+      if (!result.blockers.empty()) BOOST_TEST(first == result.time);
+      // Truth from the other side: a motion that is free by far is not blocked at once.
+      const auto end = deepest_penetration(object, checked, random.wide().pose_at(1));
+      tally.collided += end.depth > 0 ? 1 : 0;
+      if (end.depth > WideReal(clearance.allowance)) BOOST_TEST(!result.blockers.empty());
+    }
+  }
+  BOOST_TEST_MESSAGE(tally.free << " free, " << tally.blocked << " blocked, " << tally.collided
+                                << " ended in a triangle, " << tally.known << " short blockers, deepest "
+                                << tally.deepest);
+  BOOST_TEST(tally.free > count / 20);
+  BOOST_TEST(tally.blocked > count / 20);
+  BOOST_TEST(tally.collided > 5);
+}
+
+}  // namespace
+
+BOOST_AUTO_TEST_SUITE(sweep)
+
+BOOST_AUTO_TEST_CASE(a_certified_motion_through_a_soup_meets_no_triangle_in_any_sample) {
+  check_soup(1, 1000, Vector::Zero(), 500, 0);
+}
+BOOST_AUTO_TEST_CASE(a_certified_motion_through_a_sparse_soup_meets_no_triangle_in_any_sample) {
+  check_soup(2, 100, Vector::Zero(), 500, 0);
+}
+BOOST_AUTO_TEST_CASE(a_kilometre_from_the_origin_the_certificate_holds_to_the_rounding_there) {
+  // Poses and vertices are exact numbers there, too: only the arithmetic rounds, relative to the start of the
+  // motion.
+  check_soup(3, 1000, Vector(1e3, -1e3, 1e3), 300, 1e-11L);
+}
+
+BOOST_AUTO_TEST_CASE(a_tool_at_rest_is_free_exactly_where_it_penetrates_nothing) {
+  constexpr unsigned seed = 4;
+  BOOST_TEST_MESSAGE("seed " << seed);
+  std::mt19937 bits(seed);
+  const Soup soup(bits, 1000, Vector::Zero());
+  const TriangleMesh<double> mesh(soup.vertices, soup.triangles);
+  const CheckedObject object(soup.vertices, soup.triangles);
+  int free = 0, penetrating = 0;
+  for (int i = 0; i < 500; ++i) {
+    const Box box(Vector(0.02, 0.01, 0.03));
+    RandomMotion<Box> random(bits, box);
+    random.pose.translation = 0.5 * random_vector(bits);
+    random.motion = {};
+    const WideReal depth =
+        deepest_penetration(object, feeler::test::checked_tool(box), random.wide().pose_at(0)).depth;
+    if (depth > 0 && depth < 1e-9L) continue;
+    PlaneCache<double> planes;
+    int work = 0;
+    const auto result =
+        Sweep<Box>(planes, {}).certify(mesh, random.moving(), {}, work, std::numeric_limits<int>::max());
+    BOOST_TEST(result.blockers.empty() == !(depth > 0));
+    (depth > 0 ? penetrating : free)++;
+  }
+  BOOST_TEST(free > 20);
+  BOOST_TEST(penetrating > 20);
+}
+
+BOOST_AUTO_TEST_CASE(a_sweep_out_of_work_certifies_nothing_and_says_so) {
+  std::mt19937 bits(5);
+  const Soup soup(bits, 1000, Vector::Zero());
+  const TriangleMesh<double> mesh(soup.vertices, soup.triangles);
+  const Box box(Vector(0.1, 0.1, 0.1));
+  const RandomMotion<Box> random(bits, box);
+  PlaneCache<double> planes;
+  int work = 7;
+  const auto result = Sweep<Box>(planes, {}).certify(mesh, random.moving(), {}, work, 7);
+  BOOST_TEST(result.is_exhausted);
+  BOOST_TEST(result.time == 0);
+  BOOST_TEST(result.blockers.empty());
+  BOOST_TEST(work > 7);
+}
+
+BOOST_AUTO_TEST_CASE(a_known_triangle_is_examined_whether_or_not_the_traversal_would_come_to_it) {
+  // One floor below, known: it blocks a fall and is named once.
+  feeler::Points<double> vertices(3, 3);
+  vertices << -1, -1, 0, 1, -1, 0, 0, 1, 0;
+  feeler::Triangles triangles(1, 3);
+  triangles << 0, 1, 2;
+  const TriangleMesh<double> mesh(vertices, triangles);
+  const Box box(Vector(0.01, 0.01, 0.01));
+  feeler::Pose<double> pose;
+  pose.translation = Vector(0, 0, 0.011);
+  const feeler::MovingTool<Box> moving(box, Vector::Zero(), 0.02, pose, {Vector(0, 0, -0.5), Vector::Zero()});
+  const Eigen::Matrix3d corners = mesh.corners(0).colwise() - moving.origin();
+  const std::array<KnownTriangle<double>, 1> known{{{0, {corners, Vector::UnitZ(), {}, true}}}};
+  PlaneCache<double> planes;
+  int work = 0;
+  const auto result =
+      Sweep<Box>(planes, {}).certify(mesh, moving, std::span<const KnownTriangle<double>>(known), work, 1000);
+  BOOST_TEST_REQUIRE(result.blockers.size() == 1);
+  BOOST_TEST(result.blockers[0].triangle == 0);
+  BOOST_TEST(result.time * 0.5 <= 1e-3);
+  BOOST_TEST(result.time * 0.5 >= 1e-3 - 1e-6);
+}
+
+#if FEELER_TEST_COUNTS_ALLOCATIONS
+BOOST_AUTO_TEST_CASE(certifying_allocates_nothing_and_the_count_would_show_it) {
+  BOOST_TEST(feeler_test::count_works<Eigen::VectorXd>());
+  std::mt19937 bits(6);
+  const Soup soup(bits, 500, Vector::Zero());
+  const TriangleMesh<double> mesh(soup.vertices, soup.triangles);
+  PlaneCache<double> planes;
+  for (int i = 0; i < 50; ++i) {
+    const RandomMotion<Box> random(bits, random_box(bits));
+    const auto moving = random.moving();
+    int work = 0;
+    Sweep<Box> sweep(planes, {});
+    BOOST_TEST(feeler_test::allocations_during([&] { sweep.certify(mesh, moving, {}, work, 100000); }) == 0);
+  }
+}
+#endif
+
+BOOST_AUTO_TEST_SUITE_END()

@@ -1,0 +1,119 @@
+#include "feeler/qp/dual_active_set.hpp"
+
+#include <boost/test/unit_test.hpp>
+
+#include <cmath>
+#include <limits>
+
+#include "support/qp_laws.hpp"
+
+using feeler::DualActiveSet;
+using feeler::QpStatus;
+using Problem = feeler::QpProblem<double>;
+using Solution = feeler::QpSolution<double>;
+using Vector = Eigen::Vector3d;
+using feeler_test::contact_row;
+
+namespace {
+
+/// The problem min ½|d − target|².
+Problem towards(const feeler::Vector6<double>& target) {
+  Problem problem;
+  problem.gradient = -target;
+  return problem;
+}
+
+feeler::Vector6<double> six(double x, double y, double z, double a = 0, double b = 0, double c = 0) {
+  feeler::Vector6<double> v;
+  v << x, y, z, a, b, c;
+  return v;
+}
+
+}  // namespace
+
+BOOST_AUTO_TEST_SUITE(dual_active_set)
+
+BOOST_AUTO_TEST_CASE(every_answer_in_float_obeys_the_laws_of_a_qp_solver) {
+  feeler_test::check_qp_laws<DualActiveSet<float>>(1);
+}
+BOOST_AUTO_TEST_CASE(every_answer_in_double_obeys_the_laws_of_a_qp_solver) {
+  feeler_test::check_qp_laws<DualActiveSet<double>>(2);
+}
+BOOST_AUTO_TEST_CASE(every_answer_in_long_double_obeys_the_laws_of_a_qp_solver) {
+  feeler_test::check_qp_laws<DualActiveSet<long double>>(3);
+}
+
+BOOST_AUTO_TEST_CASE(a_box_on_the_floor_stops_at_the_floor_and_shares_its_weight) {
+  // Four corners at ±0.1; the target is 0.3 below: each multiplier times 4 is the weight, and the step is
+  // zero.
+  Problem problem = towards(six(0, 0, -0.3));
+  for (const Vector& arm :
+       {Vector(0.1, 0.1, 0), Vector(-0.1, 0.1, 0), Vector(-0.1, -0.1, 0), Vector(0.1, -0.1, 0)})
+    problem.add_row(contact_row<double>(Vector::UnitZ(), arm), 0);
+  DualActiveSet<double> solver;
+  Solution solution;
+  BOOST_TEST((solver.solve(problem, solution) == QpStatus::optimal));
+  BOOST_TEST(solution.step.norm() < 1e-15);
+  double weight = 0;
+  for (const auto& active : solution.active) weight += active.multiplier;
+  BOOST_TEST(std::abs(weight - 0.3) < 1e-14);
+}
+
+BOOST_AUTO_TEST_CASE(a_corner_of_three_walls_is_found_and_its_multipliers_are_the_penetrations) {
+  Problem problem = towards(six(-1, -2, 5, 0.5, 0, 0));
+  for (int k = 0; k < 3; ++k) problem.add_row(contact_row<double>(Vector::Unit(k), Vector::Zero()), 0.25 * k);
+  DualActiveSet<double> solver;
+  Solution solution;
+  BOOST_TEST((solver.solve(problem, solution) == QpStatus::optimal));
+  BOOST_TEST((solution.step - six(0, 0.25, 5, 0.5, 0, 0)).norm() < 1e-15);
+  BOOST_TEST_REQUIRE(solution.active.size() == 2);
+  for (const auto& active : solution.active)
+    BOOST_TEST(std::abs(active.multiplier - (active.row == 0 ? 1 : 2.25)) < 1e-15);
+}
+
+BOOST_AUTO_TEST_CASE(sliding_out_of_a_wedge_is_found_however_flat_the_wedge) {
+  // Walls z ≥ θ x and −z ≥ θ x − … meet in an edge; the target lies beyond it, so the answer is the edge.
+  for (const double angle : {1e-2, 1e-4, 1e-5, 1e-6}) {
+    Problem problem = towards(six(1, 0, 0.2));
+    const Vector up(-std::sin(angle), 0, std::cos(angle)), down(-std::sin(angle), 0, -std::cos(angle));
+    const double edge = 0.5;  // x of the edge
+    problem.add_row(contact_row<double>(up, Vector::Zero()), -std::sin(angle) * edge);
+    problem.add_row(contact_row<double>(down, Vector::Zero()), -std::sin(angle) * edge);
+    DualActiveSet<double> solver;
+    Solution solution;
+    BOOST_TEST((solver.solve(problem, solution) == QpStatus::optimal));
+    BOOST_TEST((solution.step - six(edge, 0, 0)).norm() < 1e-15 / angle * 100);
+  }
+}
+
+BOOST_AUTO_TEST_CASE(a_slot_that_is_too_narrow_is_infeasible_and_the_conflict_names_both_walls) {
+  Problem problem = towards(six(0, 0, 1));
+  problem.add_row(contact_row<double>(Vector::UnitX(), Vector::Zero()), -1);
+  problem.add_row(contact_row<double>(Vector::UnitZ(), Vector::Zero()), 0.1);
+  problem.add_row(contact_row<double>(Vector(0, 0, -1), Vector::Zero()), 0);
+  DualActiveSet<double> solver;
+  Solution solution;
+  BOOST_TEST((solver.solve(problem, solution) == QpStatus::infeasible));
+  BOOST_TEST_REQUIRE(solution.conflict.size() == 2);
+  BOOST_TEST(solution.conflict[0] + solution.conflict[1] == 3);
+}
+
+BOOST_AUTO_TEST_CASE(units_that_differ_by_a_power_of_two_give_the_same_bits) {
+  constexpr unsigned seed = 4;
+  BOOST_TEST_MESSAGE("seed " << seed);
+  std::mt19937 bits(seed);
+  DualActiveSet<double> solver, scaled;
+  scaled.tolerance = solver.tolerance * 1024;
+  for (int i = 0; i < 500; ++i) {
+    const Problem problem =
+        feeler_test::random_problem<double>(bits, i % feeler_test::random_problem_families, 0.01);
+    Problem larger = problem;  // every length of the step times 1024
+    larger.gradient *= 1024;
+    for (int k = 0; k < problem.row_count; ++k) larger.bounds[std::size_t(k)] *= 1024;
+    Solution a, b;
+    BOOST_TEST((solver.solve(problem, a) == scaled.solve(larger, b)));
+    BOOST_TEST((a.step * 1024 == b.step));
+  }
+}
+
+BOOST_AUTO_TEST_SUITE_END()
