@@ -41,9 +41,9 @@ int run_scene(const ChosenScene& chosen, const Options& options, const std::file
   const Recording recording = run_session(scene, session, print_progress);
   for (const std::string& refusal : recording.servo.setup.refused)
     std::printf("  note: %s\n", refusal.c_str());
-  std::printf("  checking every triangle at the poses and between them …\n");
+  std::printf("  checking the way of the tool against every triangle …\n");
   std::fflush(stdout);
-  const Verification verification = verify(scene, recording.ticks, checking_seconds);
+  const Verification verification = verify(scene, recording, checking_seconds);
   const Summary summary = summarise(scene, recording, verification, options.rate);
   print_table(summary);
 
