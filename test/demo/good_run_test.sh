@@ -69,7 +69,7 @@ awk -F, '
     if ($1 != last) end_of_tick()
     last = $1; time = $2; pose = $3 "," $4 "," $5 "," $6 "," $7 "," $8 "," $9
   }
-  END { if (!failed) { end_of_tick(); if (last != ticks - 1) bad("the last tick is " last) } }
+  END { if (!failed) { end_of_tick(); if (last != ticks - 1) bad("the last tick is " last); if (FNR <= ticks + 2) bad("no tick has a corner") } }
 ' run/ticks.csv run/path.csv >awk.txt || fail "path.csv: $(cat awk.txt)"
 
 for key in seed rate_Hz compiler commit margin_m stiffness_translational_N_per_m penetrated; do
