@@ -19,7 +19,7 @@ constexpr int success = 0, penetrated = 1, bad_input = 2, failure = 3;
 constexpr double checking_seconds = 15.0;
 
 void print_progress(const Progress& p) {
-  std::printf("  %6.2f s   %7.1f Hz   %8.1f µs a tick   %2d contacts   %6.2f N   %lld missed\n", p.time,
+  std::printf("  %6.2f s   %7.1f Hz   tick %7.1f µs   contacts %d   force %6.2f N   missed %lld\n", p.time,
               p.rate, p.microseconds, p.contacts, p.force, static_cast<long long>(p.missed));
   std::fflush(stdout);
 }
