@@ -246,18 +246,20 @@ std::vector<Figure> draw_figures(const std::filesystem::path& folder, const scen
       assignment("duration", duration) + assignment("every_tick", double(ticks.size() / 4000 + 1));
   const RunFigureData data(folder, scene, ticks);
 
-  constexpr std::size_t most_drawn_triangles = 6000;  // more make a drawing that browsers choke on
+  // More triangles make a drawing that browsers choke on; and gnuplot's drawings garble what lies outside of
+  // them, as what spills out of a close-up does.
+  constexpr std::size_t most_drawn_triangles = 6000;
   write_script(folder, {"wrench", 1000, 760, common + wrench_settings(ticks), wrench_body});
   write_script(folder, {"tick_time", 1000, 420, common + time_settings(ticks, summary), time_body});
-  write_script(folder,
-               {"run", run_width, run_height, common + run_settings(data, duration),
-                std::string(run_body) + style + run_strip, data.drawn_triangles() <= most_drawn_triangles});
+  write_script(folder, {"run", run_width, run_height, common + run_settings(data, duration),
+                        std::string(run_body) + style + run_strip,
+                        data.drawn_triangles() <= most_drawn_triangles && !data.close_up()});
 
   std::vector<Figure> figures{
       {"run",
-       "The way of the tool's tip and both tools at the peak force: where the hand is in red, where the tool "
-       "may "
-       "be in grey. Below, the norm of the force."},
+       "The way of the tool's tip, and both tools at the peak force: where the hand is in red, where the "
+       "tool "
+       "may be in grey. Below, the norm of the force."},
       {"wrench", "Force and torque on the hand, and the number of contacts that hold the tool."},
       {"tick_time",
        "Time of each tick of the renderer, with median and 99th percentile of the ticks in contact."}};

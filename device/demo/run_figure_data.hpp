@@ -31,7 +31,7 @@ class RunFigureData {
   const Eigen::AlignedBox3d& box() const { return box_; }  ///< of all that is drawn [mm]
   const TickRecord& peak() const { return *peak_; }        ///< the tick of the largest force
   View overview() const;                                   ///< all that is drawn
-  std::optional<View> close_up() const;  ///< the tip at the peak, for a tool that has one
+  std::optional<View> close_up() const;                    ///< the tip at the peak, for a tool that has one
   std::size_t drawn_triangles() const { return drawn_; }
 
  private:

@@ -89,6 +89,7 @@ Summary summarise(const scenes::Scene& scene, const Recording& recording, const 
 std::vector<std::pair<std::string, std::string>> table_of(const Summary& s) {
   const Distribution& t = s.tick_time;
   const Verification& v = s.verification;
+  const auto contact = [&](std::string text) { return s.contact_ticks > 0 ? text : "no contact"; };
   const std::string which = v.stride == 1 ? format("all %zu ticks", v.checked_ticks)
                                           : format("%zu ticks, one in %zu", v.checked_ticks, v.stride);
   const std::string checked = which + format(", at %zu places on the way of the tool", v.checked_places);
@@ -97,12 +98,12 @@ std::vector<std::pair<std::string, std::string>> table_of(const Summary& s) {
       {"rate", format("%.1f Hz, of %.0f Hz asked for", s.achieved_rate, s.wanted_rate)},
       {"missed deadlines", format("%lld", static_cast<long long>(s.missed_deadlines))},
       {"tick time in contact",
-       format("median %.1f, p99 %.1f, p99.9 %.1f, max %.1f µs", t.median, t.p99, t.p999, t.maximum)},
+       contact(format("median %.1f, p99 %.1f, p99.9 %.1f, max %.1f µs", t.median, t.p99, t.p999, t.maximum))},
       {"constraint rows in contact",
-       format("median %.0f, p99 %.0f, max %.0f", s.rows.median, s.rows.p99, s.rows.maximum)},
-      {"iterations in contact", format("median %.0f, p99 %.0f, max %.0f", s.iterations.median,
-                                       s.iterations.p99, s.iterations.maximum)},
-      {"converged in contact", format("%.2f %%", 100.0 * s.converged_share)},
+       contact(format("median %.0f, p99 %.0f, max %.0f", s.rows.median, s.rows.p99, s.rows.maximum))},
+      {"iterations in contact", contact(format("median %.0f, p99 %.0f, max %.0f", s.iterations.median,
+                                               s.iterations.p99, s.iterations.maximum))},
+      {"converged in contact", contact(format("%.2f %%", 100.0 * s.converged_share))},
       {"deepest penetration at poses", depth_text(v.pose_depth, v.pose_tick)},
       {"deepest penetration between", depth_text(v.way_depth, v.way_tick)},
       {"checked", checked},
