@@ -19,7 +19,7 @@ constexpr int success = 0, penetrated = 1, bad_input = 2, failure = 3;
 constexpr double checking_seconds = 15.0;
 
 void print_progress(const Progress& p) {
-  std::printf("  %6.2f s   %7.1f Hz   %8.1f µs a tick   %2d contacts   %6.2f N   %lld missed\n", p.time,
+  std::printf("  %6.2f s   %7.1f Hz   tick %7.1f µs   contacts %d   force %6.2f N   missed %lld\n", p.time,
               p.rate, p.microseconds, p.contacts, p.force, static_cast<long long>(p.missed));
   std::fflush(stdout);
 }
@@ -41,9 +41,9 @@ int run_scene(const ChosenScene& chosen, const Options& options, const std::file
   const Recording recording = run_session(scene, session, print_progress);
   for (const std::string& refusal : recording.servo.setup.refused)
     std::printf("  note: %s\n", refusal.c_str());
-  std::printf("  checking every triangle at the poses and between them …\n");
+  std::printf("  checking the way of the tool against every triangle …\n");
   std::fflush(stdout);
-  const Verification verification = verify(scene, recording.ticks, checking_seconds);
+  const Verification verification = verify(scene, recording, checking_seconds);
   const Summary summary = summarise(scene, recording, verification, options.rate);
   print_table(summary);
 

@@ -12,7 +12,7 @@
 namespace feeler::demo {
 namespace {
 
-constexpr double maximum_ticks = 5e6;
+constexpr double maximum_ticks = 1e6;
 
 void require(bool condition, const std::string& sentence) {
   if (!condition) throw BadInput(sentence);
@@ -28,7 +28,7 @@ void validate(const Options& options) {
   require(within(options.seconds, 0.01, 3600.0), "--seconds must be between 0.01 and 3600.");
   require(
       options.rate * options.seconds <= maximum_ticks,
-      "--rate times --seconds is more than 5 million ticks: every tick is kept in memory, so ask for fewer.");
+      "--rate times --seconds is more than a million ticks: every tick is kept in memory, so ask for fewer.");
   require(!options.start || options.start->allFinite(), "--start must be three finite numbers, in metres.");
   const bool has_file = options.object || options.tool || options.start;
   require(!has_file || !options.scene || *options.scene == "file",

@@ -31,10 +31,11 @@ code { font-size: .92em; } summary { cursor: pointer; color: #2f6db5; }
 )";
 
 constexpr const char* how_to_judge = R"(<h2>Judge it yourself</h2>
-<p>Everything is in metres, newtons and seconds, world axes, 17 digits. For each row of <code>ticks.csv</code> put <code>tool.off</code> at
-the graphic pose, <code>point_world = p + R(q) · point_tool</code> with q = (w, x, y, z), and test it against every triangle of
-<code>object.off</code> with a program of your own: its interior must meet none. Do the same between two rows. A tool without faces is a
-segment. The wrench is K times the pose difference, with K in <code>scene.json</code>: F = K<sub>t</sub> (p<sub>g</sub> − p<sub>h</sub>),
+<p>Everything is in metres, newtons and seconds, world axes, 17 digits. For each line of <code>path.csv</code> put <code>tool.off</code> at
+the pose, <code>point_world = p + R(q) · point_tool</code> with q = (w, x, y, z), and test it against every triangle of
+<code>object.off</code> with a program of your own: its interior must meet none. Do the same between two lines: p moves on a straight line,
+and R turns at a constant rate. The last line of a tick is its graphic pose in <code>ticks.csv</code>. A face of two vertices is a segment.
+The wrench is K times the pose difference, with K in <code>scene.json</code>: F = K<sub>t</sub> (p<sub>g</sub> − p<sub>h</sub>),
 T = K<sub>r</sub> Log(R<sub>g</sub> R<sub>h</sub><sup>T</sup>). <code>tick_us</code> is the time of the renderer's update alone.</p>
 )";
 

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <optional>
 
 #include "program.hpp"
 #include "run_figure_data.hpp"
@@ -68,26 +69,61 @@ constexpr const char* time_body =
     "  p50 with lines lw 1.6 lc rgb ink notitle, p99 with lines lw 1.6 lc rgb amber notitle, \\\n"
     "  period with lines lw 1.2 dt 2 lc rgb red notitle\n";
 
-/// The object and the way of the tool's tip: the hand in red, the tool in grey, as in the paper's video; both
-/// tools at the peak force.
+/// The object with the way of the tool's tip and both tools at the peak force, the hand in red and the tool
+/// in grey as in the paper's video; the same from near; and the force, with the time of the peak.
+///
+/// The close-up is drawn first and what spills out of its frame is painted over. A plot of its own draws the
+/// lines over the object, so that the way of the hand can be seen inside it.
 constexpr const char* run_body =
-    "unset border; unset tics; unset grid; unset colorbox\n"
+    "unset border; unset tics; unset grid; unset colorbox; unset key\n"
     "set multiplot\n"
-    "set lmargin at screen 0.0; set rmargin at screen 1.0; set tmargin at screen 1.0; set bmargin at screen "
-    "0.0\n"
-    "set view equal xyz; set view tilt, turn, zoom; set xyplane relative 0\n"
-    "set xrange [x0:x1] noextend; set yrange [y0:y1] noextend; set zrange [z0:z1] noextend\n"
-    "set palette defined (0 '#7d7364', 1 '#f6f0e4'); set cbrange [0:1]\n"
-    "set pm3d depthorder border lc rgb edge_colour lw edge_width\n"
+    "set view equal xyz; set xyplane relative 0; set cbrange [0:1]\n"
+    "set pm3d depthorder\n"
     "set style fill transparent solid opacity noborder\n"
-    "splot 'run_object.dat' using 1:2:3:4 with pm3d notitle\n"
-    // Over the object, so that the way of the hand can be seen inside it.
-    "set key at screen 0.97, 0.95 vertical Left reverse samplen 2\n"
-    "splot 'run.dat' index 0 using 1:2:3 with lines lw 0.9 lc rgb red title 'haptic tool: where the hand "
-    "is', \\\n"
-    "  '' index 0 using 4:5:6 with lines lw 1.5 lc rgb '#26323c' title 'graphic tool: where it may be', \\\n"
-    "  '' index 1 using 1:2:3:4:5:6 with vectors nohead lw 1.2 lc rgb red notitle, \\\n"
-    "  '' index 2 using 1:2:3:4:5:6 with vectors nohead lw 1.2 lc rgb '#26323c' notitle\n"
+    "do for [part = (split < 1 ? 1 : 2):2] {\n"
+    "  if (part == 1) {\n"
+    "    set origin split, base; set size 1 - split, 1 - base; set view tilt, turn, near_zoom\n"
+    "    set xrange [near_x0:near_x1] noextend; set yrange [near_y0:near_y1] noextend; set zrange "
+    "[near_z0:near_z1] noextend\n"
+    "  } else {\n"
+    "    paint = 'behind fc rgb \"white\" fs solid noborder'\n"
+    "    eval 'set object 1 rectangle from screen -0.01, -0.01 to screen split, 1.01 ' . paint\n"
+    "    eval 'set object 2 rectangle from screen -0.01, -0.01 to screen 1.01, base ' . paint\n"
+    "    eval 'set object 3 rectangle from screen 0.995, -0.01 to screen 1.01, 1.01 ' . paint\n"
+    "    eval 'set object 4 rectangle from screen -0.01, 0.993 to screen 1.01, 1.01 ' . paint\n"
+    "    if (split < 1) { set object 5 rectangle from screen split, base to screen 0.995, 0.993 behind fs "
+    "empty border lc rgb '#d5dade' }\n"
+    "    set origin 0, base; set size split, 1 - base; set view tilt, turn, far_zoom\n"
+    "    set xrange [far_x0:far_x1] noextend; set yrange [far_y0:far_y1] noextend; set zrange "
+    "[far_z0:far_z1] noextend\n"
+    "  }\n"
+    "  set palette defined (0 '#7d7364', 1 '#f6f0e4'); eval 'set pm3d border ' . object_border\n"
+    "  splot 'run_object.dat' using 1:2:3:4 with pm3d notitle\n"
+    "  unset object\n"
+    "  set palette defined (0 '#1b242c', 1 '#93a5b4'); set pm3d border retrace\n"
+    "  splot 'run_tool.dat' using 1:2:3:4 with pm3d notitle\n"
+    "  splot 'run.dat' index 0 using 1:2:3 with lines lw 0.8 lc rgb red notitle, \\\n"
+    "    '' index 0 using 4:5:6 with lines lw 1.2 lc rgb '#26323c' notitle, \\\n"
+    "    '' index 1 using 1:2:3:4:5:6 with vectors nohead lw tool_width lc rgb red notitle, \\\n"
+    "    '' index 2 using 1:2:3:4:5:6 with vectors nohead lw tool_width lc rgb '#26323c' notitle\n"
+    "}\n"
+    "reset\n";
+
+/// Below the pictures: a legend for them, and the force with the time of the peak.
+constexpr const char* run_strip =
+    "set origin 0, 0; set size 1, 1\n"
+    "set lmargin at screen 0.075; set rmargin at screen 0.985; set bmargin at screen 0.095; set tmargin at "
+    "screen strip\n"
+    "set xrange [0:duration]; set yrange [0:force_top]; set ytics 0, force_tics\n"
+    "set xlabel 'time  [s]' offset 0,0.4; set ylabel 'force  [N]' offset 1,0\n"
+    "set arrow 1 from peak_time, graph 0 to peak_time, graph 1 nohead lw 1.2 dt 2 lc rgb red front\n"
+    "set label 1 'both tools above' at peak_time, graph 1 offset peak_side, -0.7 @peak_align tc rgb red "
+    "front\n"
+    "set label 2 '●  haptic tool: where the hand is' at screen 0.075, base - 0.025 tc rgb red\n"
+    "set label 3 '●  graphic tool: where it may be' at screen 0.42, base - 0.025 tc rgb '#26323c'\n"
+    "plot 'ticks.csv' every every_tick using 1:(sqrt($16**2+$17**2+$18**2)) with filledcurves y1=0 fs solid "
+    "0.12 noborder lc rgb ink notitle, \\\n"
+    "  '' every every_tick using 1:(sqrt($16**2+$17**2+$18**2)) with lines lw 1.4 lc rgb ink notitle\n"
     "unset multiplot\n";
 
 /// A figure as a script: its size on the screen in pixels, what its body needs, and whether it is light
@@ -96,7 +132,7 @@ struct Script {
   std::string name;
   int width, height;
   std::string settings;
-  const char* body;
+  std::string body;
   bool has_drawing = true;
 };
 
@@ -151,43 +187,79 @@ std::string time_settings(const std::vector<TickRecord>& ticks, const Summary& s
          assignment("period", 1e6 / summary.wanted_rate);
 }
 
-std::string run_settings(const RunFigureData& data) {
-  // A cube about all that is drawn: from any side it then fills the picture alike.
-  const Vector3<double> centre = data.box().center();
-  const double half = data.box().sizes().norm() / 2.0;
+constexpr int run_width = 1000, run_height = 760;
+// Of the figure: right end of the overview, lower end of both pictures, upper end of the force.
+constexpr double panels_split = 0.6, panels_base = 0.285, strip_top = 0.225;
+
+/// Ranges and zoom that show a view in a panel of the picture.
+///
+/// The ranges are a cube that holds all that is drawn, because gnuplot drops what is outside of them; it
+/// draws the side of the cube 4/7 of the panel long, less its own margins, times the zoom.
+std::string view_settings(const std::string& name, const View& view, const Eigen::AlignedBox3d& box,
+                          double panel_width, double panel_height) {
+  const double side = 2.0 * std::max((box.max() - view.centre).cwiseAbs().maxCoeff(),
+                                     (view.centre - box.min()).cwiseAbs().maxCoeff());
+  const double inner = std::min(panel_width - 52.0, panel_height - 72.0);
+  const double pixels_a_millimetre =
+      0.94 * std::min(panel_width / std::max(view.width, 1e-9), panel_height / std::max(view.height, 1e-9));
   std::string settings;
   for (int k = 0; k < 3; ++k) {
-    const std::string axis(1, char('x' + k));
-    settings += assignment((axis + "0").c_str(), centre[k] - half) +
-                assignment((axis + "1").c_str(), centre[k] + half);
+    const std::string range = name + "_" + char('x' + k);
+    settings += assignment((range + "0").c_str(), view.centre[k] - side / 2.0) +
+                assignment((range + "1").c_str(), view.centre[k] + side / 2.0);
   }
+  return settings + assignment((name + "_zoom").c_str(), pixels_a_millimetre * side / (4.0 / 7.0 * inner));
+}
+
+/// 1, 2 or 5 times a power of ten, about half of a value.
+double tic_step(double value) {
+  const double power = std::pow(10.0, std::floor(std::log10(value / 2.0)));
+  const double digit = value / 2.0 / power;
+  return power * (digit < 2.0 ? 1.0 : digit < 5.0 ? 2.0 : 5.0);
+}
+
+std::string run_settings(const RunFigureData& data, double duration) {
+  const std::optional<View> close_up = data.close_up();
+  const double split = close_up ? panels_split : 1.0;
+  const double height = run_height * (1.0 - panels_base);
   const bool is_simple = data.drawn_triangles() < 1000;
-  return settings + assignment("tilt", RunFigureData::tilt) + assignment("turn", RunFigureData::turn) +
-         assignment("zoom", 2.0) + assignment("opacity", is_simple ? 0.45 : 1.0) +
-         assignment("edge_width", is_simple ? 0.7 : 0.05) + "edge_colour = '" +
-         (is_simple ? "#8d877c" : "#b9ae9b") + "'\n";
+  const bool is_late = data.peak().time > duration / 2.0;
+  const double peak_force = std::max(data.peak().wrench.force.norm(), 1e-3);
+  std::string settings = view_settings("far", data.overview(), data.box(), run_width * split, height);
+  if (close_up) settings += view_settings("near", *close_up, data.box(), run_width * (1.0 - split), height);
+  return settings + assignment("split", split) + assignment("base", panels_base) +
+         assignment("strip", strip_top) + assignment("tilt", RunFigureData::tilt) +
+         assignment("turn", RunFigureData::turn) + assignment("opacity", is_simple ? 0.45 : 1.0) +
+         assignment("tool_width", is_simple ? 2.0 : 1.0) + assignment("force_top", 1.25 * peak_force) +
+         assignment("force_tics", tic_step(1.25 * peak_force)) + assignment("peak_time", data.peak().time) +
+         assignment("peak_side", is_late ? -0.5 : 0.5) + "peak_align = '" + (is_late ? "right" : "left") +
+         "'\nobject_border = \"" + (is_simple ? "lc rgb '#8d877c' lw 0.7" : "retrace") + "\"\n";
 }
 
 }  // namespace
 
 std::vector<Figure> draw_figures(const std::filesystem::path& folder, const scenes::Scene& scene,
                                  const std::vector<TickRecord>& ticks, const Summary& summary) {
-  const double duration = ticks.empty() ? 1.0 : std::max(ticks.back().time, 1e-3);
+  const double duration = double(ticks.size()) / summary.wanted_rate;
   // More points than pixels make files large and nothing clearer.
   const std::string common =
       assignment("duration", duration) + assignment("every_tick", double(ticks.size() / 4000 + 1));
   const RunFigureData data(folder, scene, ticks);
 
-  constexpr std::size_t most_drawn_triangles = 6000;  // more make a drawing that browsers choke on
+  // More triangles make a drawing that browsers choke on; and gnuplot's drawings garble what lies outside of
+  // them, as what spills out of a close-up does.
+  constexpr std::size_t most_drawn_triangles = 6000;
   write_script(folder, {"wrench", 1000, 760, common + wrench_settings(ticks), wrench_body});
   write_script(folder, {"tick_time", 1000, 420, common + time_settings(ticks, summary), time_body});
-  write_script(folder, {"run", 1000, 700, run_settings(data), run_body,
-                        data.drawn_triangles() <= most_drawn_triangles});
+  write_script(folder, {"run", run_width, run_height, common + run_settings(data, duration),
+                        std::string(run_body) + style + run_strip,
+                        data.drawn_triangles() <= most_drawn_triangles && !data.close_up()});
 
   std::vector<Figure> figures{
       {"run",
-       "Way of the tool's tip [mm]: where the hand is in red, where the tool may be in grey; both tools at "
-       "the peak force."},
+       "The way of the tool's tip, and both tools at the peak force: where the hand is in red, where the "
+       "tool "
+       "may be in grey. Below, the norm of the force."},
       {"wrench", "Force and torque on the hand, and the number of contacts that hold the tool."},
       {"tick_time",
        "Time of each tick of the renderer, with median and 99th percentile of the ticks in contact."}};

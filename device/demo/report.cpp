@@ -32,6 +32,28 @@ ordered_json json_of(const Distribution& d) {
   return {{"median", d.median}, {"p99", d.p99}, {"p99_9", d.p999}, {"max", d.maximum}};
 }
 
+void print_pose(TextFile& text, const Pose<double>& pose) {
+  const auto& p = pose.translation;
+  const auto& q = pose.rotation;
+  text.print(",%.17g,%.17g,%.17g,%.17g,%.17g,%.17g,%.17g", p.x(), p.y(), p.z(), q.w(), q.x(), q.y(), q.z());
+}
+
+/// The certified way, a pose a line; between two lines the tool moves straight and turns evenly.
+void write_path(const std::filesystem::path& file, const Recording& recording) {
+  TextFile text(file);
+  text.print("tick,t,px,py,pz,qw,qx,qy,qz\n-1,0");
+  print_pose(text, recording.way.front());
+  text.print("\n");
+  for (std::size_t tick = 0; tick < recording.ticks.size(); ++tick) {
+    for (std::size_t i = recording.way_begin(tick) + 1; i < recording.ticks[tick].way_end; ++i) {
+      text.print("%zu,%.17g", tick, recording.ticks[tick].time);
+      print_pose(text, recording.way[i]);
+      text.print("\n");
+    }
+  }
+  text.close();
+}
+
 void write_ticks(const std::filesystem::path& file, const std::vector<TickRecord>& ticks) {
   TextFile text(file);
   text.print("t");
@@ -39,17 +61,12 @@ void write_ticks(const std::filesystem::path& file, const std::vector<TickRecord
     for (const char* column : {"px", "py", "pz", "qw", "qx", "qy", "qz"}) text.print(",%s_%s", tool, column);
   }
   text.print(",fx,fy,fz,tx,ty,tz,contacts,rows,iterations,converged,tick_us\n");
-  const auto print_pose = [&](const Pose<double>& pose) {
-    const auto& p = pose.translation;
-    const auto& q = pose.rotation;
-    text.print(",%.17g,%.17g,%.17g,%.17g,%.17g,%.17g,%.17g", p.x(), p.y(), p.z(), q.w(), q.x(), q.y(), q.z());
-  };
   for (const TickRecord& tick : ticks) {
     const auto& f = tick.wrench.force;
     const auto& t = tick.wrench.torque;
     text.print("%.17g", tick.time);
-    print_pose(tick.haptic);
-    print_pose(tick.graphic);
+    print_pose(text, tick.haptic);
+    print_pose(text, tick.graphic);
     text.print(",%.17g,%.17g,%.17g,%.17g,%.17g,%.17g,%d,%d,%d,%d,%.17g\n", f.x(), f.y(), f.z(), t.x(), t.y(),
                t.z(), tick.contacts, tick.rows, tick.iterations, int(tick.converged), tick.microseconds);
   }
@@ -116,13 +133,10 @@ ordered_json results_json(const Summary& s) {
            {{"tolerance_m", Verification::tolerance},
             {"deepest_at_poses_m", v.pose_depth},
             {"deepest_at_poses_tick", v.pose_tick},
-            {"deepest_on_path_m", v.path_depth},
-            {"deepest_on_path_tick", v.path_tick},
-            {"corner_share", Verification::corner_share},
-            {"crossings", v.crossings},
-            {"checked_poses", v.checked_poses},
-            {"checked_ways", v.checked_ways},
-            {"samples_a_way", v.samples},
+            {"deepest_on_way_m", v.way_depth},
+            {"deepest_on_way_tick", v.way_tick},
+            {"checked_ticks", v.checked_ticks},
+            {"checked_places", v.checked_places},
             {"stride", v.stride},
             {"penetrated", v.penetrated()}}}};
 }
@@ -216,6 +230,7 @@ bool write_report(const std::filesystem::path& folder, const Run& run) {
   write_off(folder / "object.off", polyhedron_of(scene.vertices, scene.triangles));
   write_off(folder / "tool.off", polyhedron_of(scene.tool));
   write_ticks(folder / "ticks.csv", run.recording.ticks);
+  write_path(folder / "path.csv", run.recording);
   write_scene(folder / "scene.json", run);
   const std::vector<Figure> figures = draw_figures(folder, scene, run.recording.ticks, run.summary);
   write_page(folder / "report.html", folder, scene, run.summary, figures);

@@ -30,22 +30,20 @@ scenes::Tool load_tool(const Options& options) {
   }
 }
 
-/// A scanned jaw, an animal of a Debian package, or the terrain: the first that this machine has.
+/// A scanned jaw, an animal, or the terrain: the first that this machine has.
 ChosenScene best_real_mesh(const Options& options) {
-  const std::filesystem::path beside = "../shared/meshes/lower_teeth.stl";
-  for (const std::filesystem::path& file : {beside, std::filesystem::path(teeth_mesh_file)}) {
-    if (!std::filesystem::exists(file)) continue;
-    Mesh mesh = load_mesh(file, 1.0);
+  if (std::filesystem::exists(teeth_mesh_file)) {
+    Mesh mesh = load_mesh(teeth_mesh_file, 1.0);
     return {scenes::lower_teeth(scenes::teeth_vertices(mesh.vertices), std::move(mesh.triangles)),
-            file.string(), formula};
+            teeth_mesh_file, formula};
   }
-  if (std::filesystem::exists(packaged_mesh_file)) {
-    Mesh mesh = load_mesh(packaged_mesh_file, 1.0);
+  if (std::filesystem::exists(animal_mesh_file)) {
+    Mesh mesh = load_mesh(animal_mesh_file, 1.0);
     const double size = scenes::bounds(mesh.vertices, mesh.triangles).sizes().maxCoeff();
     mesh.vertices *= 0.1 / size;
     return {scenes::mesh_scene("mesh", std::move(mesh.vertices), std::move(mesh.triangles),
                                scenes::slender_probe()),
-            packaged_mesh_file, formula};
+            animal_mesh_file, formula};
   }
   return {scenes::terrain(71, options.seed), formula, formula};
 }

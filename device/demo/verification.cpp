@@ -10,81 +10,85 @@
 namespace feeler::demo {
 namespace {
 
+/// Places that are looked at between two poses of a way; its poses come on top.
+constexpr int places_between = 3;
+
 test::CheckedTool checked_tool_of(const scenes::Scene& scene) {
   return std::visit([](const auto& tool) { return test::checked_tool(tool); }, scene.tool);
+}
+
+bool is_same(const Pose<double>& a, const Pose<double>& b) {
+  return a.translation == b.translation && a.rotation.coeffs() == b.rotation.coeffs();
 }
 
 /// Checks one tick after the other and keeps the deepest of each kind.
 class RunChecker {
  public:
-  RunChecker(const scenes::Scene& scene, const std::vector<TickRecord>& ticks)
-      : object_(scene.vertices, scene.triangles), tool_(checked_tool_of(scene)), ticks_(ticks) {}
+  RunChecker(const scenes::Scene& scene, const Recording& recording)
+      : object_(scene.vertices, scene.triangles), tool_(checked_tool_of(scene)), recording_(recording) {}
 
   void check(std::size_t tick, Verification& result) const {
-    const auto here = test::checked_pose(ticks_[tick].graphic);
-    const double pose_depth = double(test::deepest_penetration(object_, tool_, here).depth);
-    ++result.checked_poses;
+    ++result.checked_ticks;
+    const double pose_depth = depth(test::checked_pose(recording_.ticks[tick].graphic), result);
     if (pose_depth > result.pose_depth) {
       result.pose_depth = pose_depth;
       result.pose_tick = tick;
     }
-    if (tick == 0) return;
-    const auto before = test::checked_pose(ticks_[tick - 1].graphic);
-    ++result.checked_ways;
-    double deepest = 0.0;
-    for (int i = 1; i <= result.samples; ++i) {
-      const auto between = test::pose_on_path(before, here, test::WideReal(i) / (result.samples + 1));
-      deepest = std::max(deepest, double(test::deepest_penetration(object_, tool_, between).depth));
+    const std::vector<Pose<double>>& way = recording_.way;
+    const std::size_t begin = recording_.way_begin(tick), end = recording_.ticks[tick].way_end;
+    // Its first pose is the graphic pose of the tick before, and its last one has just been judged.
+    double deepest = tick == 0 ? depth(test::checked_pose(way[0]), result) : 0.0;
+    for (std::size_t i = begin + 1; i < end; ++i) {
+      deepest = std::max(deepest, depth_between(way[i - 1], way[i], result));
+      if (i + 1 < end) deepest = std::max(deepest, depth(test::checked_pose(way[i]), result));
     }
-    if (deepest > result.path_depth) {
-      result.path_depth = deepest;
-      result.path_tick = tick;
+    if (deepest > result.way_depth) {
+      result.way_depth = deepest;
+      result.way_tick = tick;
     }
-    if (deepest > Verification::tolerance + Verification::corner_share * motion(before, here))
-      ++result.crossings;
   }
 
  private:
-  /// Longest way of a vertex of the tool [m].
-  double motion(const test::CheckedPose& before, const test::CheckedPose& here) const {
-    double longest = 0.0;
-    for (const test::WideVector& v : tool_.vertices) {
-      const test::WideVector moved =
-          here.translation + here.rotation * v - before.translation - before.rotation * v;
-      longest = std::max(longest, double(moved.norm()));
+  double depth(const test::CheckedPose& pose, Verification& result) const {
+    ++result.checked_places;
+    return double(test::deepest_penetration(object_, tool_, pose).depth);
+  }
+
+  double depth_between(const Pose<double>& from, const Pose<double>& to, Verification& result) const {
+    double deepest = 0.0;
+    if (is_same(from, to)) return deepest;
+    const auto pose0 = test::checked_pose(from), pose1 = test::checked_pose(to);
+    for (int i = 1; i <= places_between; ++i) {
+      const auto between = test::pose_on_path(pose0, pose1, test::WideReal(i) / (places_between + 1));
+      deepest = std::max(deepest, depth(between, result));
     }
-    return longest;
+    return deepest;
   }
 
   test::CheckedObject object_;
   test::CheckedTool tool_;
-  const std::vector<TickRecord>& ticks_;
+  const Recording& recording_;
 };
 
 }  // namespace
 
-bool is_free(const scenes::Scene& scene, const Pose<double>& pose) {
-  const test::CheckedObject object(scene.vertices, scene.triangles);
-  const auto found = test::deepest_penetration(object, checked_tool_of(scene), test::checked_pose(pose));
-  return double(found.depth) <= Verification::tolerance;
-}
-
-Verification verify(const scenes::Scene& scene, const std::vector<TickRecord>& ticks, double budget_seconds) {
+Verification verify(const scenes::Scene& scene, const Recording& recording, double budget_seconds) {
   using Clock = std::chrono::steady_clock;
   Verification result;
-  if (ticks.empty()) return result;
-  const RunChecker checker(scene, ticks);
+  const std::size_t ticks = recording.ticks.size();
+  if (ticks == 0) return result;
+  const RunChecker checker(scene, recording);
 
   // The cost of a tick depends on how much of the object is near the tool: try some of the whole run.
   constexpr std::size_t trials = 40;
   Verification trial;
   const auto start = Clock::now();
-  for (std::size_t i = 0; i < trials; ++i) checker.check(i * (ticks.size() - 1) / trials, trial);
+  for (std::size_t i = 0; i < trials; ++i) checker.check(i * (ticks - 1) / trials, trial);
   const double seconds_a_tick = std::chrono::duration<double>(Clock::now() - start).count() / double(trials);
-  const double total = seconds_a_tick * double(ticks.size());
+  const double total = seconds_a_tick * double(ticks);
   result.stride = std::size_t(std::max(1.0, std::ceil(total / budget_seconds)));
 
-  for (std::size_t tick = 0; tick < ticks.size(); tick += result.stride) checker.check(tick, result);
+  for (std::size_t tick = 0; tick < ticks; tick += result.stride) checker.check(tick, result);
   return result;
 }
 

@@ -22,7 +22,7 @@ code=$?
 for word in 'missed deadlines' 'p99.9' 'deepest penetration' 'converged' 'peak force'; do
   grep -q "$word" output.txt || fail "the table does not say '$word'"
 done
-for file in object.off tool.off ticks.csv scene.json report.html; do
+for file in object.off tool.off ticks.csv path.csv scene.json report.html; do
   [ -s "run/$file" ] || fail "$file is missing or empty"
 done
 ls | grep -q partial && fail 'an unfinished folder was left behind'
@@ -52,6 +52,25 @@ awk -F, 'NR > 1 {
   }
   if ($26 <= 0) { print "line " NR ": no time"; exit 1 }
 }' run/ticks.csv >awk.txt || fail "ticks.csv: $(cat awk.txt)"
+
+# The way begins at the start and never leaves a tick out; a tick ends where ticks.csv says that the tool is.
+[ "$(head -n 1 run/path.csv)" = 'tick,t,px,py,pz,qw,qx,qy,qz' ] || fail "the columns are $(head -n 1 run/path.csv)"
+awk -F, '
+  function bad(what) { print FILENAME " line " FNR ": " what; failed = 1; exit 1 }
+  function end_of_tick() { if (last >= 0 && (pose != graphic[last] || time != t[last])) bad("tick " last " ends elsewhere") }
+  FNR == 1 { next }
+  NR == FNR { t[FNR - 2] = $1; graphic[FNR - 2] = $9 "," $10 "," $11 "," $12 "," $13 "," $14 "," $15; ticks = FNR - 1; next }
+  NF != 9 { bad(NF " columns") }
+  FNR == 2 { if ($1 != -1 || $3 != 0 || $4 != 0 || $5 != 0 || $6 != 1) bad("this is not the start"); last = -1; next }
+  {
+    n = $6 * $6 + $7 * $7 + $8 * $8 + $9 * $9
+    if (n < 0.999999999 || n > 1.000000001) bad("quaternion of length " n)
+    if ($1 != last && $1 != last + 1) bad("tick " $1 " after " last)
+    if ($1 != last) end_of_tick()
+    last = $1; time = $2; pose = $3 "," $4 "," $5 "," $6 "," $7 "," $8 "," $9
+  }
+  END { if (!failed) { end_of_tick(); if (last != ticks - 1) bad("the last tick is " last); if (FNR <= ticks + 2) bad("no tick has a corner") } }
+' run/ticks.csv run/path.csv >awk.txt || fail "path.csv: $(cat awk.txt)"
 
 for key in seed rate_Hz compiler commit margin_m stiffness_translational_N_per_m penetrated; do
   grep -q "\"$key\"" run/scene.json || fail "scene.json has no $key"
