@@ -206,26 +206,33 @@ BOOST_AUTO_TEST_CASE(sampling_ten_times_faster_gives_the_same_poses) {
   }
 }
 
-BOOST_AUTO_TEST_CASE(the_tool_moves_no_farther_than_the_device) {
-  // Projections on convex sets never lengthen a step; curvature of the rotations may, a little.
+BOOST_AUTO_TEST_CASE(the_tool_never_jumps_where_the_device_does_not) {
+  // A projection on a convex set never lengthens a step. Two corners of the tilted cube that push with forces λ add a curvature of −λh to
+  // the metric's L², which lengthens steps of the tilt by 1/(1 − 2λh/L²): 3 in the cavity of 1 mm. At ten times the rate a jump would be
+  // ten times that.
   for (const double clearance : {1e-3, 1e-5, 0.0}) {
-    Cavity cavity(clearance);
-    const double length = cavity.scene.length;
-    double worst = 0, worst_wrench = 0;
-    Pose<double> last = cavity.scene.start, last_haptic = last;
-    Wrench<double> last_wrench;
-    for (int i = 1; i < ticks_to_run(4000, 4); ++i) {
-      const Pose<double> haptic = cavity.scene.motion(i * 1e-3);
-      const auto& tick = cavity.renderer.update(haptic);
-      const WideTwist step = twist_between(last, tick.graphic_pose), device = twist_between(last_haptic, haptic);
-      const auto size = [&](const WideTwist& e) { return static_cast<double>(std::sqrt(e.linear.squaredNorm() + length * length * e.angular.squaredNorm())); };
-      worst = std::max(worst, size(step) / size(device));
-      worst_wrench = std::max(worst_wrench, (tick.wrench.force - last_wrench.force).norm() / (1000 * size(device)));
-      last = tick.graphic_pose, last_haptic = haptic, last_wrench = tick.wrench;
+    for (const double rate : {1e3, 1e4}) {
+      Cavity cavity(clearance);
+      const double length = cavity.scene.length;
+      double worst = 0, worst_wrench = 0;
+      Pose<double> last = cavity.scene.start, last_haptic = last;
+      Wrench<double> last_wrench;
+      for (int i = 1; i < ticks_to_run(int(2 * rate), 8); ++i) {
+        const Pose<double> haptic = cavity.scene.motion(i / rate);
+        const auto& tick = cavity.renderer.update(haptic);
+        const auto size = [&](const WideTwist& e) {
+          return static_cast<double>(std::sqrt(e.linear.squaredNorm() + length * length * e.angular.squaredNorm()));
+        };
+        const double device = size(twist_between(last_haptic, haptic));
+        worst = std::max(worst, size(twist_between(last, tick.graphic_pose)) / device);
+        worst_wrench = std::max(worst_wrench, (tick.wrench.force - last_wrench.force).norm() / (1000 * device));
+        last = tick.graphic_pose, last_haptic = haptic, last_wrench = tick.wrench;
+      }
+      BOOST_TEST_MESSAGE("clearance " << clearance << ", " << rate << " Hz: largest step of the tool per step of the device " << worst
+                                      << ", of the force " << worst_wrench);
+      BOOST_TEST(worst <= (clearance > 1e-4 ? 4.0 : 1.1));
+      BOOST_TEST(worst_wrench <= (clearance > 1e-4 ? 3.0 : 1.1));
     }
-    BOOST_TEST_MESSAGE("clearance " << clearance << ": largest step of the tool per step of the device " << worst << ", of the force " << worst_wrench);
-    BOOST_TEST(worst <= 1.5);
-    BOOST_TEST(worst_wrench <= 2.5);
   }
 }
 
