@@ -26,7 +26,9 @@ using PatchRows = FixedVector<ContactRow<Scalar>, 12>;
 /// from tilting. Where no such pair is as close as the closest points are, they give a row of their own.
 ///
 /// A normal outside the normal cone of the mesh there is a ghost: a neighbour is nearer, and its own rows hold the tool.
-/// Such rows are left out, so that edges inside a flat surface do not catch; `keep_ghost` keeps the closest one.
+/// Such rows are left out, so that edges inside a flat surface do not catch; `keep_ghost` keeps the closest one. In a valley the tool is
+/// above the planes of both sides, and each will hold it: there the plane of the face takes the ghost's place, and the row says that it is
+/// assumed.
 ///
 /// All input in the tool frame. @cost O(vertices), and O(edges) where more than one vertex is in the band.
 template <ConvexTool Tool, class MeshScalar>
@@ -39,9 +41,15 @@ class ContactPatch {
   /// @param world_from_tool  axes of the tool; rows come out in world axes
   /// @param reference        reference point in the tool frame [m]
   /// @param band             height above the separating plane up to which features count [m]
+  /// @param assumes_valleys  let the planes of valleys hold the tool before it is over them
   ContactPatch(const Tool& tool, const TriangleMesh<MeshScalar>& mesh, const Matrix3<Scalar>& world_from_tool,
-               const Vector& reference, Scalar band) noexcept
-      : tool_(tool), mesh_(mesh), world_from_tool_(world_from_tool), reference_(reference), band_(band) {}
+               const Vector& reference, Scalar band, bool assumes_valleys) noexcept
+      : tool_(tool),
+        mesh_(mesh),
+        world_from_tool_(world_from_tool),
+        reference_(reference),
+        band_(band),
+        assumes_valleys_(assumes_valleys) {}
 
   /// Rows of a triangle with the closest points given; false when it had none but a ghost and that was left out.
   bool find(int triangle, const Matrix3<Scalar>& corners, const ClosestPoints<Scalar>& closest, bool keep_ghost,
@@ -58,7 +66,10 @@ class ContactPatch {
     const bool is_met = std::any_of(rows.begin(), rows.end(), [&](const Row& row) { return row.gap <= close_enough; });
     // Overlapping shapes have no closest points: the deepest vertex may lie beside the triangle, where nothing holds it.
     if (is_met || (closest.is_touching && !rows.empty())) return true;
-    if (!keep_ghost && !is_in_cone(closest)) return !rows.empty();
+    if (!keep_ghost && !is_in_cone(closest)) {
+      if (assumes_valleys_) add_concave_face(closest, rows);
+      return !rows.empty();
+    }
     if (rows.full()) rows.pop_back();
     rows.push_back(row_of(FeaturePair::vertex_face, normal_, closest.tool_point, closest.distance));
     return true;
@@ -111,6 +122,41 @@ class ContactPatch {
     }
   }
 
+  /// The triangle's own plane, where the lowest tool vertex is beside it, near, and every edge between them is a valley's.
+  void add_concave_face(const ClosestPoints<Scalar>& closest, PatchRows<Scalar>& rows) noexcept {
+    if (!has_face_ || rows.full() || closest.distance > 4 * band_) return;
+    for (const Scalar side : {Scalar(1), Scalar(-1)}) {
+      const Vector normal = side * face_normal_;
+      const Vector vertex = tool_.vertex(tool_.support(Vector(-normal)));
+      const Scalar gap = normal.dot(vertex - corners_.col(0));
+      if (!(gap > Scalar(0)) || !is_across_valleys(vertex, normal)) continue;
+      rows.push_back(row_of(FeaturePair::vertex_face, normal, vertex, gap));
+      rows.back().is_assumed = true;
+      return;
+    }
+  }
+
+  /// Whether the mesh rises from the triangle's plane, on the side given, across each edge that a point lies beyond.
+  bool is_across_valleys(const Vector& point, const Vector& normal) const noexcept {
+    const Vector normal_world = world_from_tool_ * normal;
+    const auto& corners = mesh_.triangle(triangle_);
+    for (int k = 0; k < 3; ++k) {
+      const Vector start = corners_.col(k);
+      const Vector edge = corners_.col((k + 1) % 3) - start;
+      if (edge.cross(Vector(point - start)).dot(face_normal_) >= Scalar(0)) continue;
+      const int neighbour = mesh_.topology().neighbour(triangle_, k);
+      if (neighbour < 0) return false;
+      const Vector start_world = mesh_.vertex(corners[index(k)]).template cast<Scalar>();
+      bool rises = false;
+      for (const int vertex : mesh_.triangle(neighbour)) {
+        const Vector along = mesh_.vertex(vertex).template cast<Scalar>() - start_world;
+        rises = rises || normal_world.dot(along) > cone_tolerance * along.norm();
+      }
+      if (!rises) return false;
+    }
+    return true;
+  }
+
   void add_corners_on_faces(PatchRows<Scalar>& rows) noexcept {
     for (int f = 0; f < tool_.face_count(); ++f) {
       const auto face = tool_.face(f);
@@ -128,7 +174,7 @@ class ContactPatch {
           const Vector edge = tool_.vertex(loop[(i + 1) % loop.size()]) - start;
           is_inside = is_inside && edge.cross(Vector(corner - start)).dot(outward) >= Scalar(0);
         }
-        if (!is_inside || !is_in_vertex_cone(k, Vector(-outward))) continue;
+        if (!is_inside || !is_clear_of_neighbours_at_corner(k, Vector(-outward))) continue;
         rows.push_back(row_of(FeaturePair::face_vertex, Vector(-outward), corner, gap));
       }
     }
@@ -164,7 +210,7 @@ class ContactPatch {
     const Scalar along_tool = between.cross(u).dot(u.cross(v)) / (sine * sine);
     if (along_object < Scalar(0) || along_object > object_length || along_tool < Scalar(0) || along_tool > tool_length) return;
     const Scalar gap = normal.dot(between);
-    if (std::abs(gap) > 2 * band_ || !is_in_edge_cone(k, normal)) return;
+    if (std::abs(gap) > 2 * band_ || !is_clear_of_neighbour_across(k, normal)) return;
     Row row = row_of(FeaturePair::edge_edge, normal, Vector(tool_start + along_tool * v), gap);
     row.object_edge = world_from_tool_ * u;
     row.tool_edge = world_from_tool_ * v;
@@ -179,7 +225,7 @@ class ContactPatch {
     const Scalar extent = std::abs(object.dot(tool));
     const Scalar from = std::max(Scalar(0), first / length_squared);
     const Scalar to = std::min(Scalar(1), (first + extent) / length_squared);
-    if (!(from < to) || !is_in_edge_cone(k, normal_)) return;
+    if (!(from < to) || !is_clear_of_neighbour_across(k, normal_)) return;
     for (const Scalar t : {from, to}) {
       const Vector on_tool = tool_start + t * tool;
       const Scalar along = object.dot(on_tool - start) / object.squaredNorm();
@@ -217,11 +263,22 @@ class ContactPatch {
     return edge_cone_contains(mesh_, triangle_, edge, direction, MeshScalar(cone_tolerance));
   }
 
+  // In a patch the triangle itself may rise a little from one of its features to the next; both hold the tool. Its neighbours may not.
+  bool is_clear_of_neighbours_at_corner(int corner, const Vector& normal) const noexcept {
+    const Vector3<MeshScalar> direction = (world_from_tool_ * normal).template cast<MeshScalar>();
+    return neighbours_point_away(mesh_, triangle_, corner, direction, MeshScalar(cone_tolerance));
+  }
+  bool is_clear_of_neighbour_across(int edge, const Vector& normal) const noexcept {
+    const Vector3<MeshScalar> direction = (world_from_tool_ * normal).template cast<MeshScalar>();
+    return neighbour_points_away(mesh_, triangle_, edge, direction, MeshScalar(cone_tolerance));
+  }
+
   const Tool& tool_;
   const TriangleMesh<MeshScalar>& mesh_;
   Matrix3<Scalar> world_from_tool_;
   Vector reference_;
   Scalar band_;
+  bool assumes_valleys_;
 
   int triangle_ = -1;
   Matrix3<Scalar> corners_;

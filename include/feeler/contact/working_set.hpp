@@ -17,6 +17,7 @@ struct WorkingPair {
   Scalar slack = Scalar(0);                          ///< separation there [m]
   int idle_ticks = 0;       ///< ticks since it held the tool or blocked a motion
   bool has_rows = false;    ///< rows of it took part in the last step
+  bool is_tight = false;    ///< there was no room for the margin at its last step
   bool keeps_ghost = false; ///< it blocked although its row looked like a ghost: give it a row all the same
 };
 

@@ -29,6 +29,39 @@ bool points_away(const Vector3<Scalar>& start, const Vector3<Scalar>& end, const
 
 }  // namespace detail
 
+/// Whether a direction points away from the triangle across an edge: the normal cone of the edge but for the triangle's own side.
+/// True where not exactly one triangle is across.
+template <RealScalar Scalar>
+bool neighbour_points_away(const TriangleMesh<Scalar>& mesh, int triangle, int k, const Vector3<Scalar>& direction,
+                           const Scalar& tolerance) noexcept {
+  const int neighbour = mesh.topology().neighbour(triangle, k);
+  if (neighbour < 0) return true;
+  const std::array<int, 3>& corners = mesh.triangle(triangle);
+  const int start = corners[std::size_t(k)], end = corners[std::size_t((k + 1) % 3)];
+  for (const int corner : mesh.triangle(neighbour)) {
+    if (corner == start || corner == end) continue;
+    return detail::points_away<Scalar>(mesh.vertex(start), mesh.vertex(end), mesh.vertex(corner), direction, tolerance);
+  }
+  return true;
+}
+
+/// Whether a direction points along none of the edges at a corner of a triangle, its own two left out.
+template <RealScalar Scalar>
+bool neighbours_point_away(const TriangleMesh<Scalar>& mesh, int triangle, int corner, const Vector3<Scalar>& direction,
+                           const Scalar& tolerance) noexcept {
+  using std::sqrt;
+  const std::array<int, 3>& corners = mesh.triangle(triangle);
+  const int vertex = corners[std::size_t(corner)];
+  const auto neighbours = mesh.topology().vertex_neighbours(vertex);
+  if (int(neighbours.size()) > max_cone_valence) return true;
+  for (const int neighbour : neighbours) {
+    if (neighbour == corners[0] || neighbour == corners[1] || neighbour == corners[2]) continue;
+    const Vector3<Scalar> along = mesh.vertex(neighbour) - mesh.vertex(vertex);
+    if (!(direction.dot(along) <= tolerance * sqrt(along.squaredNorm()))) return false;
+  }
+  return true;
+}
+
 /// Whether a point just off an edge in a direction has its closest mesh point on that edge: the normal cone
 /// of the edge.
 ///
@@ -43,16 +76,9 @@ bool edge_cone_contains(const TriangleMesh<Scalar>& mesh, int triangle, int k,
                         const Vector3<Scalar>& direction, const Scalar& tolerance) noexcept {
   const std::array<int, 3>& corners = mesh.triangle(triangle);
   const int start = corners[std::size_t(k)], end = corners[std::size_t((k + 1) % 3)];
-  const auto is_away = [&](int opposite) {
-    return detail::points_away<Scalar>(mesh.vertex(start), mesh.vertex(end), mesh.vertex(opposite), direction,
-                                       tolerance);
-  };
-  if (!is_away(corners[std::size_t((k + 2) % 3)])) return false;
-  const int neighbour = mesh.topology().neighbour(triangle, k);
-  if (neighbour < 0) return true;
-  for (const int corner : mesh.triangle(neighbour))
-    if (corner != start && corner != end) return is_away(corner);
-  return true;
+  const bool is_own_away = detail::points_away<Scalar>(mesh.vertex(start), mesh.vertex(end),
+                                                      mesh.vertex(corners[std::size_t((k + 2) % 3)]), direction, tolerance);
+  return is_own_away && neighbour_points_away(mesh, triangle, k, direction, tolerance);
 }
 
 /// Whether a point just off a vertex in a direction has its closest mesh point in that vertex: the normal

@@ -28,8 +28,9 @@ typename Tool::Scalar separation_along(const Tool& tool, const Matrix3<typename 
 
 /// Maximises the separation over the face normals of the Minkowski difference: the triangle's normal, the tool's face normals and the
 /// cross products of their edges. Exact for shapes that touch or overlap (the separating axis theorem); for shapes apart it
-/// may fall short of the distance. Faces win ties, so that flat contacts keep the normal of the face.
-/// @cost  two support calls an axis: 13 axes for a box, some hundreds for a hull of 32 points
+/// may fall short of the distance. The first axis along which they do not overlap is taken, faces before edges, so that flat contacts
+/// keep the normal of the face.
+/// @cost  two support calls an axis: at most 13 axes for a box, some hundreds for a hull of 32 points; one where a face touches
 template <ConvexTool Tool>
 SeparatingAxis<typename Tool::Scalar> best_separating_axis(const Tool& tool,
                                                            const Matrix3<typename Tool::Scalar>& triangle) noexcept {
@@ -44,21 +45,24 @@ SeparatingAxis<typename Tool::Scalar> best_separating_axis(const Tool& tool,
       const Scalar distance = separation_along(tool, triangle, n);
       if (distance > best.distance + handicap) best = {n, distance};
     }
+    return best.distance >= -4 * epsilon * size;
   };
   std::array<Vector3<Scalar>, 3> edges;
   for (int k = 0; k < 3; ++k) edges[std::size_t(k)] = (triangle.col((k + 1) % 3) - triangle.col(k)).stableNormalized();
   const Vector3<Scalar> normal = edges[0].cross(edges[1]);
   const Scalar sine = normal.norm();
-  if (sine > 64 * epsilon) attempt(normal / sine);
+  if (sine > 64 * epsilon && attempt(normal / sine)) return best;
   handicap = 32 * epsilon * size;
-  for (int i = 0; i < tool.face_axis_count(); ++i) attempt(tool.face_axis(i));
+  for (int i = 0; i < tool.face_axis_count(); ++i) {
+    if (attempt(tool.face_axis(i))) return best;
+  }
   for (int i = 0; i < tool.edge_direction_count(); ++i) {
     const Vector3<Scalar> direction = tool.edge_direction(i).stableNormalized();
     for (const Vector3<Scalar>& edge : edges) {
       const Vector3<Scalar> axis = direction.cross(edge);
       const Scalar length = axis.norm();
       // Parallel edges add no axis: their common plane is bounded by other crosses and by the faces beside them.
-      if (length > Scalar(1e-7)) attempt(axis / length);
+      if (length > Scalar(1e-7) && attempt(axis / length)) return best;
     }
   }
   return best;

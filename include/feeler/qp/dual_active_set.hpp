@@ -5,8 +5,6 @@
 #include <cmath>
 #include <limits>
 
-#include <Eigen/Cholesky>
-
 #include "feeler/qp/problem.hpp"
 #include "feeler/qp/qp_solver.hpp"
 #include "feeler/qp/solution.hpp"
@@ -37,9 +35,7 @@ class DualActiveSet {
     solution.conflict.clear();
     solution.iterations = 0;
     solution.step.setZero();
-    const Eigen::LLT<Matrix6<Scalar>> factor(problem.hessian);
-    if (factor.info() != Eigen::Success || !is_positive(factor)) return QpStatus::not_positive_definite;
-    inverse_ = factor.solve(Matrix6<Scalar>::Identity());
+    if (!invert(problem.hessian)) return QpStatus::not_positive_definite;
     projector_ = inverse_;
     count_ = 0;
     Vector6<Scalar> x = -(inverse_ * problem.gradient);
@@ -64,10 +60,56 @@ class DualActiveSet {
  private:
   static std::size_t index(int i) noexcept { return std::size_t(i); }
 
-  static bool is_positive(const Eigen::LLT<Matrix6<Scalar>>& factor) noexcept {
-    using std::isfinite;
-    const auto diagonal = factor.matrixLLT().diagonal();
-    return isfinite(diagonal.sum()) && diagonal.minCoeff() > Scalar(0);
+  /// H⁻¹ = L⁻ᵀD⁻¹L⁻¹ by H = LDLᵀ, without square roots; false unless H is positive definite.
+  bool invert(const Matrix6<Scalar>& h) noexcept {
+    if (is_diagonal(h)) {
+      if (!(h.diagonal().minCoeff() > Scalar(0))) return false;
+      inverse_ = h.diagonal().cwiseInverse().asDiagonal();
+      return true;
+    }
+    Matrix6<Scalar> l, m;       // unit lower triangles of L and L⁻¹
+    Vector6<Scalar> d_inverse;  // D⁻¹
+    for (int j = 0; j < 6; ++j) {
+      Vector6<Scalar> scaled;  // row j of LD
+      Scalar pivot = h(j, j);
+      for (int k = 0; k < j; ++k) {
+        scaled[k] = l(j, k);
+        l(j, k) *= d_inverse[k];
+        pivot -= scaled[k] * l(j, k);
+      }
+      if (!(pivot > Scalar(0)) || !(pivot < std::numeric_limits<Scalar>::max())) return false;
+      d_inverse[j] = Scalar(1) / pivot;
+      for (int i = j + 1; i < 6; ++i) {  // below the diagonal LD for now
+        Scalar sum = h(i, j);
+        for (int k = 0; k < j; ++k) sum -= l(i, k) * l(j, k);
+        l(i, j) = sum;
+      }
+    }
+    for (int j = 0; j < 6; ++j) {
+      m(j, j) = Scalar(1);
+      for (int i = j + 1; i < 6; ++i) {
+        Scalar sum = -l(i, j);
+        for (int k = j + 1; k < i; ++k) sum -= l(i, k) * m(k, j);
+        m(i, j) = sum;
+      }
+    }
+    for (int j = 0; j < 6; ++j) {
+      for (int i = j; i < 6; ++i) {
+        Scalar sum(0);
+        for (int k = i; k < 6; ++k) sum += m(k, i) * d_inverse[k] * m(k, j);
+        inverse_(i, j) = inverse_(j, i) = sum;
+      }
+    }
+    return true;
+  }
+
+  static bool is_diagonal(const Matrix6<Scalar>& h) noexcept {
+    for (int j = 0; j < 6; ++j) {
+      for (int i = j + 1; i < 6; ++i) {
+        if (h(i, j) != Scalar(0)) return false;
+      }
+    }
+    return true;
   }
 
   int most_violated(const Problem& problem, const Vector6<Scalar>& x) const noexcept {
@@ -77,7 +119,7 @@ class DualActiveSet {
     for (int k = 0; k < problem.row_count; ++k) {
       const Vector6<Scalar>& a = problem.rows[index(k)];
       const Scalar violation = problem.bounds[index(k)] - a.dot(x);
-      if (!(violation > tolerance + rounding * a.template lpNorm<1>()) || is_active(k)) continue;
+      if (!(violation > tolerance) || !(violation > tolerance + rounding * a.template lpNorm<1>()) || is_active(k)) continue;
       const Scalar free_part = a.dot(projector_ * a);
       const Scalar whole = a.dot(inverse_ * a);
       const Scalar score = violation * violation / (free_part > Scalar(1e-3) * whole ? free_part : Scalar(1e-3) * whole);

@@ -158,10 +158,13 @@ class HapticRenderer {
       ++tick_.iterations;
       const Proposal proposal = propose();
       const Working length = length_of(proposal.motion);
-      if (length <= resting) {
-        return !proposal.is_capped;
-      }
+      if (length <= resting) return proposal.is_settled && !proposal.is_capped;
       const MovingTool moving(tool_, reference_, radius_, pose_, proposal.motion);
+      if (!descends(moving.pose_at(Working(1)))) {
+        trust_ = std::min(trust_, length) / 4;
+        if (trust_ < resting) break;
+        continue;
+      }
       const auto result = certify(moving);
       if (result.is_exhausted) {
         (problem_.row_count() > 0 ? trust_ : flight_) = length / 8;
@@ -183,15 +186,26 @@ class HapticRenderer {
     return false;
   }
 
+  /// Whether a pose is nearer to the target than the certified one, but for what it costs to keep the margin.
+  bool descends(const Pose<Working>& pose) const noexcept {
+    using std::sqrt;
+    const Working before = metric_.energy(motion_between(target_, pose_));
+    const Working after = metric_.energy(motion_between(target_, pose));
+    return after <= before + margin_ * (sqrt(2 * before) + margin_);
+  }
+
   /// Solves for the motion from the certified pose, linearising again where the first step ends.
   Proposal propose() noexcept {
-    constexpr int maximum_rounds = 3;
+    constexpr int maximum_rounds = 4;
     Proposal proposal;
     Pose<Working> pose = pose_;
+    bool rests_on_assumption = false;
+    Working previous(0);
     for (int round = 0; round < maximum_rounds; ++round) {
-      linearise(pose, round == 0);
+      linearise(pose, round == 0, !rests_on_assumption);
       const Twist<Working> e = motion_between(target_, pose);
       const Vector6<Working> step = proposal.is_capped ? problem_.restore(metric_, margin_) : problem_.solve(metric_, e, margin_);
+      note_tight_pairs();
       pose = moved(pose, Twist<Working>::from_vector(step));
       proposal.motion = motion_between(pose_, pose);
       const Working last = length_of(Twist<Working>::from_vector(step));
@@ -205,18 +219,23 @@ class HapticRenderer {
         if (proposal.is_free) return proposal;
         continue;
       }
-      proposal.is_settled = last < Working(settings_.step_tolerance) || proposal.is_free;
+      rests_on_assumption = problem_.rests_on_assumption();
+      // A short step is the last one where steps shrink fast, or where it is very short.
+      const Working tolerance = Working(settings_.step_tolerance);
+      const bool is_short = last < tolerance && (last < previous / 10 || last < tolerance / 50);
+      previous = last;
+      proposal.is_settled = (is_short && !rests_on_assumption) || proposal.is_free;
       if (proposal.is_settled || proposal.is_capped) return proposal;
     }
     return proposal;
   }
 
   /// Rows of the working set at a pose; at the certified pose also the planes that the certificate starts from.
-  void linearise(const Pose<Working>& pose, bool is_certified) noexcept {
+  void linearise(const Pose<Working>& pose, bool is_certified, bool assumes_valleys) noexcept {
     problem_.clear();
     const Matrix3<Working> axes = pose.rotation.toRotationMatrix();
     const Working band = Working(settings_.trust_radius) / 4;
-    ContactPatch<WorkingTool, Scalar> patch(tool_, object_, axes, reference_, band);
+    ContactPatch<WorkingTool, Scalar> patch(tool_, object_, axes, reference_, band, assumes_valleys);
     PatchRows<Working> rows;
     for (int i = 0; i < working_set_.size(); ++i) {
       Pair& pair = working_set_[i];
@@ -231,10 +250,18 @@ class HapticRenderer {
       pair.has_rows = patch.find(pair.triangle, corners, closest, pair.keeps_ghost, rows);
       for (ContactRow<Working>& row : rows) {
         row.triangle = pair.triangle;
-        problem_.add(row, pair.slack);
+        problem_.add(row, pair.slack, pair.is_tight);
       }
     }
     tick_.rows = problem_.row_count();
+  }
+
+  /// Remembers which pairs had no room for the margin.
+  void note_tight_pairs() noexcept {
+    for (int i = 0; i < working_set_.size(); ++i) working_set_[i].is_tight = false;
+    for (int k = 0; k < problem_.row_count(); ++k) {
+      if (problem_.is_relaxed(k)) working_set_[working_set_.find(problem_.row(k).triangle)].is_tight = true;
+    }
   }
 
   /// Closest points of a pair. On the way the tool may overlap it; then the plane it had at the certified pose says which features meet.

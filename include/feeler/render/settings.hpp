@@ -33,7 +33,7 @@ struct Settings {
   /// makes one bad linearisation cost more.
   Scalar trust_radius = Scalar(4e-4);
 
-  /// A step that moves no tool point farther than this ends a tick as converged [m].
+  /// A step that moves no tool point farther than this, and a tenth of the step before it, ends a tick as converged [m].
   Scalar step_tolerance = Scalar(5e-6);
 
   /// Linearisations a tick, at most 32; when they are spent the rest of the motion is left for the next ticks.

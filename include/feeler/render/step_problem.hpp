@@ -28,10 +28,19 @@ class StepProblem {
 
   void clear() noexcept { rows_.clear(); }
   /// @param certified_gap  separation of the row's pair at the last certified pose [m]
-  bool add(const Row& row, Scalar certified_gap) noexcept {
+  /// @param is_tight       it was among those that could not have the margin: relax it with the first that cannot
+  bool add(const Row& row, Scalar certified_gap, bool is_tight) noexcept {
     if (!rows_.push_back(row)) return false;
     certified_gaps_[index(rows_.size() - 1)] = certified_gap;
+    is_tight_[index(rows_.size() - 1)] = is_tight;
     return true;
+  }
+  /// Whether a row of the last solution was asked for less than the margin.
+  bool is_relaxed(int k) const noexcept { return is_relaxed_[index(k)]; }
+  /// Whether an assumed row stopped the last step.
+  bool rests_on_assumption() const noexcept {
+    return std::any_of(solution_.active.begin(), solution_.active.end(),
+                       [this](const auto& active) { return rows_[active.row].is_assumed; });
   }
   int row_count() const noexcept { return rows_.size(); }
   const Row& row(int k) const noexcept { return rows_[k]; }
@@ -84,6 +93,9 @@ class StepProblem {
       bool has_relaxed = false;
       if (round < maximum_rounds && status == QpStatus::infeasible) {
         for (const int k : solution_.conflict) has_relaxed = relax(k, margin) || has_relaxed;
+        for (int k = 0; round == 0 && k < problem_.row_count; ++k) {
+          if (is_tight_[index(k)]) has_relaxed = relax(k, margin) || has_relaxed;
+        }
       }
       if (has_relaxed) continue;
       for (int k = 0; k < problem_.row_count; ++k) has_relaxed = relax(k, margin) || has_relaxed;
@@ -152,6 +164,7 @@ class StepProblem {
   bool is_free_ = true;
   FixedVector<Row, row_capacity> rows_;
   std::array<Scalar, std::size_t(row_capacity)> certified_gaps_;
+  std::array<bool, std::size_t(row_capacity)> is_tight_;
   std::array<bool, std::size_t(row_capacity)> is_relaxed_;
 };
 

@@ -1,0 +1,204 @@
+// Replays the scenes against the renderer alone and says how long a tick took, how exact it was, and what penetrated.
+//
+// The device is a recorded hand: poses at a fixed rate, no servo loop and no feedback, so that runs can be compared.
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <ctime>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include <CLI/CLI.hpp>
+
+#include "../device/demo/mesh_file.hpp"
+#include "feeler/feeler.hpp"
+#include "scenes/cavity.hpp"
+#include "scenes/motions.hpp"
+#include "scenes/steps.hpp"
+#include "scenes/sulcus.hpp"
+#include "scenes/teeth.hpp"
+#include "scenes/terrain.hpp"
+#include "support/penetration_checker.hpp"
+
+namespace {
+
+using feeler::Pose;
+using feeler::Twist;
+
+struct Options {
+  std::string scene = "all";
+  double rate = 1000.0;
+  double seconds = 10.0;
+  unsigned hostile_seed = 0;  // 0: the hand moves as the scene says
+  int check_every = 0;        // ticks between checks of pose and way; 0: none
+  int settle_every = 0;       // contact ticks between looks at where the tool would settle; 0: none
+  int work_budget = 0;        // 0: the library's default
+};
+
+/// What one replay found.
+struct Figures {
+  int ticks = 0;
+  int checked = 0;
+  int converged = 0;
+  std::vector<double> microseconds, iterations, rows, work;  // of contact ticks
+  std::vector<double> distance, distance_if_converged;       // to where the held device settles [m]
+  double deepest = 0.0;
+};
+
+double quantile(std::vector<double> values, double share) {
+  if (values.empty()) return 0.0;
+  std::sort(values.begin(), values.end());
+  return values[std::size_t(share * double(values.size() - 1))];
+}
+
+/// Processor time of this thread [µs]: other programs on the machine do not count.
+double thread_time() {
+  timespec t;
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &t);
+  return double(t.tv_sec) * 1e6 + double(t.tv_nsec) * 1e-3;
+}
+
+/// Distance in the metric of the scene from the graphic pose to where the renderer would settle with the device held [m].
+template <class Renderer>
+double distance_to_settled(Renderer renderer, const Pose<double>& haptic, const feeler::Metric<double>& metric) {
+  constexpr int most_ticks = 200;
+  const Pose<double> graphic = renderer.tick().graphic_pose;
+  for (int i = 0; i < most_ticks; ++i) {
+    if (renderer.update(haptic).converged() && renderer.tick().path.empty()) break;
+  }
+  return std::sqrt(2.0 * metric.energy(motion_between(graphic, renderer.tick().graphic_pose)));
+}
+
+template <class Tool>
+Figures replay(const feeler::scenes::Setting& scene, const Tool& tool, const Options& options) {
+  constexpr double contact_energy = 1e-14;  // [m²]
+  const feeler::TriangleMesh<double> object(scene.vertices, scene.triangles);
+  auto settings = scene.settings();
+  if (options.work_budget > 0) settings.work_budget = options.work_budget;
+  feeler::HapticRenderer renderer(object, tool, settings);
+  if (renderer.reset(scene.start) != feeler::Status::converged) throw std::runtime_error("the scene starts in penetration");
+
+  const auto motion =
+      options.hostile_seed != 0 ? feeler::scenes::hostile(scene.motion, options.hostile_seed, options.rate) : scene.motion;
+  const auto metric = feeler::Metric<double>::proportional_to(settings.stiffness);
+  const feeler::test::CheckedObject checked_object(scene.vertices, scene.triangles);
+  const auto checked_tool = feeler::test::checked_tool(tool);
+  Figures figures;
+  figures.ticks = int(options.seconds * options.rate);
+  Pose<double> last = scene.start;
+  for (int k = 1; k <= figures.ticks; ++k) {
+    const Pose<double> haptic = motion(double(k) / options.rate);
+    const double begin = thread_time();
+    const auto& tick = renderer.update(haptic);
+    const double end = thread_time();
+    if (metric.energy(motion_between(haptic, tick.graphic_pose)) > contact_energy) {
+      figures.microseconds.push_back(end - begin);
+      figures.iterations.push_back(tick.iterations);
+      figures.rows.push_back(tick.rows);
+      figures.work.push_back(tick.work);
+      figures.converged += tick.converged() ? 1 : 0;
+      if (options.settle_every > 0 && int(figures.work.size()) % options.settle_every == 0) {
+        const double distance = distance_to_settled(renderer, haptic, metric);
+        figures.distance.push_back(distance);
+        if (tick.converged()) figures.distance_if_converged.push_back(distance);
+      }
+    }
+    if (options.check_every > 0 && k % options.check_every == 0) {
+      ++figures.checked;
+      Pose<double> from = last;
+      for (const auto& to : tick.path) {
+        const auto found = feeler::test::deepest_penetration_on_path(
+            checked_object, checked_tool, feeler::test::checked_pose(from), feeler::test::checked_pose(to), 8);
+        figures.deepest = std::max(figures.deepest, double(found.depth));
+        from = to;
+      }
+    }
+    last = tick.graphic_pose;
+  }
+  return figures;
+}
+
+/// Share of distances of at most 0.1 µm [%].
+double near_share(const std::vector<double>& distance) {
+  const auto near = std::count_if(distance.begin(), distance.end(), [](double d) { return d <= 1e-7; });
+  return 100.0 * double(near) / double(std::max<std::size_t>(distance.size(), 1));
+}
+
+void print_header() {
+  std::printf("%-18s %13s %7s | %7s %7s %7s %7s | %7s %7s | %9s %9s %9s | %9s\n", "scene", "contact/ticks", "conv %",
+              "p50 µs", "p99", "p99.9", "max", "rows", "iter99", "≤0.1 µm %", "of conv %", "p98 µm", "deepest m");
+}
+
+void print(const std::string& name, const Figures& figures, const Options& options) {
+  const auto& us = figures.microseconds;
+  const double contacts = double(std::max<std::size_t>(us.size(), 1));
+  std::printf("%-18s %6zu/%6d %7.2f | %7.1f %7.1f %7.1f %7.1f | %7.0f %7.0f | ", name.c_str(), us.size(), figures.ticks,
+              100.0 * figures.converged / contacts, quantile(us, 0.5), quantile(us, 0.99), quantile(us, 0.999),
+              quantile(us, 1.0), quantile(figures.rows, 0.5), quantile(figures.iterations, 0.99));
+  if (figures.distance.empty()) {
+    std::printf("%9s %9s %9s | ", "-", "-", "-");
+  } else {
+    std::printf("%9.2f %9.2f %9.3g | ", near_share(figures.distance), near_share(figures.distance_if_converged),
+                1e6 * quantile(figures.distance, 0.98));
+  }
+  if (options.check_every > 0) {
+    std::printf("%9.2g\n", figures.deepest);
+  } else {
+    std::printf("%9s\n", "-");
+  }
+  std::fflush(stdout);
+}
+
+void run(const std::string& name, const feeler::scenes::Scene& scene, const Options& options) {
+  std::visit([&](const auto& tool) { print(name, replay(scene, tool, options), options); }, scene.tool);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  Options options;
+  CLI::App app("feeler-replay: how long a tick takes, how exact it is, and what penetrates");
+  app.add_option("--scene", options.scene, "cavity, steps, sulcus, teeth, terrain or all")
+      ->check(CLI::IsMember({"all", "cavity", "steps", "sulcus", "teeth", "terrain"}));
+  app.add_option("--rate", options.rate, "ticks a second")->check(CLI::Range(100.0, 1e5));
+  app.add_option("--seconds", options.seconds, "length of the motion")->check(CLI::Range(0.01, 1e4));
+  app.add_option("--hostile", options.hostile_seed, "seed of teleports and spins; 0 for none");
+  app.add_option("--check", options.check_every, "check every Nth tick for penetration; 0 for none")->check(CLI::NonNegativeNumber);
+  app.add_option("--settle", options.settle_every, "hold the device at every Nth contact tick and see where the tool settles; 0 for none")->check(CLI::NonNegativeNumber);
+  app.add_option("--budget", options.work_budget, "Settings::work_budget; 0 for the default")->check(CLI::NonNegativeNumber);
+  CLI11_PARSE(app, argc, argv);
+
+  const auto wanted = [&](const char* name) { return options.scene == "all" || options.scene == name; };
+  try {
+    print_header();
+    if (wanted("cavity")) {
+      run("cavity 1 mm", feeler::scenes::cavity(1e-3), options);
+      run("cavity 10 um", feeler::scenes::cavity(1e-5), options);
+      run("cavity 0", feeler::scenes::cavity(0.0), options);
+    }
+    if (wanted("steps")) {
+      run("steps, line", feeler::scenes::steps(), options);
+      run("steps, prism", feeler::scenes::steps_with_prism(), options);
+    }
+    if (wanted("sulcus")) run("sulcus", feeler::scenes::sulcus(), options);
+    if (wanted("teeth")) {
+      const std::filesystem::path file = "../shared/meshes/lower_teeth.stl";
+      if (std::filesystem::exists(file)) {
+        auto mesh = feeler::demo::load_mesh(file, 1.0);
+        run("teeth", feeler::scenes::lower_teeth(feeler::scenes::teeth_vertices(mesh.vertices), std::move(mesh.triangles)), options);
+      } else {
+        std::printf("teeth: skipped, %s is not here\n", file.c_str());
+      }
+    }
+    if (wanted("terrain")) {
+      for (const int cells : {22, 71, 224, 707}) {
+        run("terrain " + std::to_string(2 * cells * cells), feeler::scenes::terrain(cells), options);
+      }
+    }
+  } catch (const std::exception& problem) {
+    std::fprintf(stderr, "feeler-replay: %s\n", problem.what());
+    return 1;
+  }
+  return 0;
+}
