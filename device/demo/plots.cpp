@@ -126,8 +126,8 @@ constexpr const char* run_strip =
     "  '' every every_tick using 1:(sqrt($16**2+$17**2+$18**2)) with lines lw 1.4 lc rgb ink notitle\n"
     "unset multiplot\n";
 
-/// A figure as a script: its size on the screen in pixels, what its body needs, and whether it is light
-/// enough for a drawing.
+/// A figure as a script: its size on the screen in pixels, what its body needs, and whether there is a
+/// drawing besides the picture.
 struct Script {
   std::string name;
   int width, height;
@@ -246,14 +246,11 @@ std::vector<Figure> draw_figures(const std::filesystem::path& folder, const scen
       assignment("duration", duration) + assignment("every_tick", double(ticks.size() / 4000 + 1));
   const RunFigureData data(folder, scene, ticks);
 
-  // More triangles make a drawing that browsers choke on; and gnuplot's drawings garble what lies outside of
-  // them, as what spills out of a close-up does.
-  constexpr std::size_t most_drawn_triangles = 6000;
   write_script(folder, {"wrench", 1000, 760, common + wrench_settings(ticks), wrench_body});
   write_script(folder, {"tick_time", 1000, 420, common + time_settings(ticks, summary), time_body});
+  // As a picture only: gnuplot's drawings garble what lies outside of them and forget the second palette.
   write_script(folder, {"run", run_width, run_height, common + run_settings(data, duration),
-                        std::string(run_body) + style + run_strip,
-                        data.drawn_triangles() <= most_drawn_triangles && !data.close_up()});
+                        std::string(run_body) + style + run_strip, false});
 
   std::vector<Figure> figures{
       {"run",

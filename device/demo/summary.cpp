@@ -22,7 +22,7 @@ std::string format(const char* pattern, Values... values) {
 
 std::string depth_text(double depth, std::size_t tick) {
   if (!(depth > 0.0)) return "none";
-  if (depth > Verification::tolerance) return format("%.3g µm at tick %zu", 1e6 * depth, tick);
+  if (depth > Verification::tolerance) return format("%.3g mm at tick %zu", 1e3 * depth, tick);
   return format("none but rounding: %.1g m at tick %zu, of %.0e m allowed", depth, tick,
                 Verification::tolerance);
 }

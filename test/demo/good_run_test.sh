@@ -78,8 +78,8 @@ done
 grep -q '"seed": 7' run/scene.json || fail 'scene.json has another seed'
 
 if command -v gnuplot >/dev/null; then
-  for figure in wrench tick_time run; do
-    [ -s "run/$figure.svg" ] && [ -s "run/$figure.png" ] || fail "figure $figure is missing"
+  for figure in wrench.svg wrench.png tick_time.svg tick_time.png run.png; do
+    [ -s "run/$figure" ] || fail "$figure is missing"
   done
   [ "$(grep -c '</svg>' run/report.html)" -ge 1 ] || fail 'the page shows no figure'
 fi
