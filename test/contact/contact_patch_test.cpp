@@ -59,13 +59,13 @@ struct Found {
 
 template <class Tool>
 Found find(const Tool& tool, const Mesh& mesh, int triangle, const feeler::Pose<double>& pose,
-           bool keep_ghost = false, const Vector& reference = Vector::Zero()) {
+           bool keep_ghost = false, const Vector& reference = Vector::Zero(), bool assumes_valleys = false) {
   const Eigen::Matrix3d axes = pose.rotation.toRotationMatrix();
   // pose.translation is where the reference point is.
   const Eigen::Matrix3d corners =
       (axes.transpose() * (mesh.corners(triangle).colwise() - pose.translation)).colwise() + reference;
   const auto closest = feeler::separation(tool, corners, {}, 1e-8);
-  ContactPatch<Tool, double> patch(tool, mesh, axes, reference, band);
+  ContactPatch<Tool, double> patch(tool, mesh, axes, reference, band, assumes_valleys);
   Found found;
   found.has_rows = patch.find(triangle, corners, closest, keep_ghost, found.rows);
   return found;

@@ -67,7 +67,9 @@ class DualActiveSet {
   /// H⁻¹ = L⁻ᵀD⁻¹L⁻¹ by H = LDLᵀ, without square roots; false unless H is positive definite.
   bool invert(const Matrix6<Scalar>& h) noexcept {
     if (is_diagonal(h)) {
-      if (!(h.diagonal().minCoeff() > Scalar(0))) return false;
+      for (int j = 0; j < 6; ++j) {
+        if (!is_pivot(h(j, j))) return false;
+      }
       inverse_ = h.diagonal().cwiseInverse().asDiagonal();
       return true;
     }
@@ -81,7 +83,7 @@ class DualActiveSet {
         l(j, k) *= d_inverse[k];
         pivot -= scaled[k] * l(j, k);
       }
-      if (!(pivot > Scalar(0)) || !(pivot < std::numeric_limits<Scalar>::max())) return false;
+      if (!is_pivot(pivot)) return false;
       d_inverse[j] = Scalar(1) / pivot;
       for (int i = j + 1; i < 6; ++i) {  // below the diagonal LD for now
         Scalar sum = h(i, j);
@@ -105,6 +107,10 @@ class DualActiveSet {
       }
     }
     return true;
+  }
+
+  static bool is_pivot(Scalar pivot) noexcept {
+    return pivot > Scalar(0) && pivot < std::numeric_limits<Scalar>::max();
   }
 
   static bool is_diagonal(const Matrix6<Scalar>& h) noexcept {
