@@ -202,8 +202,8 @@ BOOST_AUTO_TEST_CASE(sampling_ten_times_faster_gives_the_same_poses) {
       worst = std::max(worst, pose_error(slow.renderer.tick().graphic_pose, fast.renderer.tick().graphic_pose).at(half));
     }
     BOOST_TEST_MESSAGE("clearance " << clearance << ": 1 kHz and 10 kHz differ by at most " << worst << " m");
-    // Where there is no clearance, which walls have their margin depends on the way.
-    BOOST_TEST(worst <= (clearance > 0 ? 1e-8 : 2e-6));
+    // In fits of a few margins and less, which walls have their margin depends on the way.
+    BOOST_TEST(worst <= (clearance > 1e-5 ? 1e-8 : 2e-6));
   }
 }
 

@@ -176,10 +176,14 @@ class ContactPatch {
   }
 
   void add_edges(PatchRows<Scalar>& rows) noexcept {
+    std::array<bool, 3> is_edge;  // an edge inside a flat part of the surface touches nothing
+    for (int k = 0; k < 3; ++k) is_edge[index(k)] = mesh_.topology().edge_convexity(triangle_, k) != Convexity::flat;
     for (int e = 0; e < tool_.edge_count(); ++e) {
       const ToolEdge edge = tool_.edge(e);
       if (!is_near_[index(edge.start)] || !is_near_[index(edge.end)]) continue;
-      for (int k = 0; k < 3; ++k) add_edge_pair(tool_.vertex(edge.start), tool_.vertex(edge.end), k, rows);
+      for (int k = 0; k < 3; ++k) {
+        if (is_edge[index(k)]) add_edge_pair(tool_.vertex(edge.start), tool_.vertex(edge.end), k, rows);
+      }
     }
   }
 

@@ -129,6 +129,7 @@ class HapticRenderer {
     bool is_settled = false;   // another linearisation would not change it
     bool is_capped = false;    // the trust region cut it
     bool is_free = false;      // no contact holds the tool
+    Working restoration = 0;   // energy that it may cost to win the margin back [m²]
   };
 
   Pose<Working> reference_pose(const Pose<Scalar>& tool_pose) const noexcept {
@@ -160,7 +161,7 @@ class HapticRenderer {
       const Working length = length_of(proposal.motion);
       if (length <= resting) return proposal.is_settled && !proposal.is_capped;
       const MovingTool moving(tool_, reference_, radius_, pose_, proposal.motion);
-      if (!descends(moving.pose_at(Working(1)))) {
+      if (!descends(moving.pose_at(Working(1)), proposal.restoration)) {
         trust_ = std::min(trust_, length) / 4;
         if (trust_ < resting) break;
         continue;
@@ -186,12 +187,12 @@ class HapticRenderer {
     return false;
   }
 
-  /// Whether a pose is nearer to the target than the certified one, but for what it costs to keep the margin.
-  bool descends(const Pose<Working>& pose) const noexcept {
+  /// Whether a pose is nearer to the target than the certified one, but for what it costs to win the margin back.
+  bool descends(const Pose<Working>& pose, Working restoration) const noexcept {
     using std::sqrt;
     const Working before = metric_.energy(motion_between(target_, pose_));
     const Working after = metric_.energy(motion_between(target_, pose));
-    return after <= before + margin_ * (sqrt(2 * before) + margin_);
+    return after <= before + 2 * restoration + margin_ * (sqrt(2 * before) + margin_);
   }
 
   /// Solves for the motion from the certified pose, linearising again where the first step ends.
@@ -205,6 +206,7 @@ class HapticRenderer {
       linearise(pose, round == 0, !rests_on_assumption);
       const Twist<Working> e = motion_between(target_, pose);
       const Vector6<Working> step = proposal.is_capped ? problem_.restore(metric_, margin_) : problem_.solve(metric_, e, margin_);
+      if (round == 0) proposal.restoration = problem_.cost_of_restoration();
       note_tight_pairs();
       pose = moved(pose, Twist<Working>::from_vector(step));
       proposal.motion = motion_between(pose_, pose);

@@ -37,6 +37,14 @@ class StepProblem {
   }
   /// Whether a row of the last solution was asked for less than the margin.
   bool is_relaxed(int k) const noexcept { return is_relaxed_[index(k)]; }
+  /// Bound on the energy by which the last step had to rise to meet rows that it started short of: Σ multiplier · shortfall.
+  Scalar cost_of_restoration() const noexcept {
+    Scalar cost(0);
+    for (const auto& active : solution_.active) {
+      cost += active.multiplier * std::max(problem_.bounds[index(active.row)], Scalar(0));
+    }
+    return cost;
+  }
   /// Whether an assumed row stopped the last step.
   bool rests_on_assumption() const noexcept {
     return std::any_of(solution_.active.begin(), solution_.active.end(),

@@ -20,13 +20,11 @@ struct Pose {
     return translation + rotation * point_tool;
   }
 
-  /// False for a NaN, an infinity, or a quaternion too short to be normalised.
+  /// False for a NaN, an infinity, a translation too long to be squared, or a quaternion that cannot be normalised.
   bool is_finite() const noexcept {
     using std::isfinite;
-    bool finite = true;
-    for (int i = 0; i < 3; ++i) finite = finite && isfinite(translation[i]);
     const Scalar length = rotation.squaredNorm();
-    return finite && isfinite(length) && length > std::numeric_limits<Scalar>::epsilon();
+    return isfinite(translation.squaredNorm()) && isfinite(length) && length > std::numeric_limits<Scalar>::epsilon();
   }
 
   Pose normalized() const noexcept { return {translation, rotation.normalized()}; }
