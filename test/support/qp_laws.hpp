@@ -280,7 +280,8 @@ void check_answer(const feeler::QpProblem<Scalar>& problem, feeler::QpStatus sta
     BOOST_TEST(is_valid(problem, solution));
     const WideReal epsilon = WideReal(std::numeric_limits<Scalar>::epsilon());
     const WideProblem wide(problem);
-    const WideReal reach = 1e4L * WideReal(scale);
+    // Infeasible within this distance: a direction known to epsilon says nothing about what lies farther off.
+    const WideReal reach = std::min(1e4L, 1e-5L / epsilon) * WideReal(scale);
     if (status == feeler::QpStatus::optimal) {
       BOOST_TEST(solution.conflict.empty());
       const KktResiduals kkt = kkt_residuals(wide, solution);
@@ -302,8 +303,11 @@ void check_answer(const feeler::QpProblem<Scalar>& problem, feeler::QpStatus sta
                        1e4L * epsilon * size);
       }
     } else {
-      BOOST_TEST_REQUIRE(
-          (status == feeler::QpStatus::infeasible));  // no more than 8 rows: nothing is too hard
+      const BruteForceOptimum optimum(wide, 0);
+      BOOST_TEST((!optimum.exists || optimum.step.norm() > 10 * WideReal(scale)));
+      if (status == feeler::QpStatus::iteration_limit)
+        return;  // an honest end, on the brink of infeasibility
+      BOOST_TEST_REQUIRE((status == feeler::QpStatus::infeasible));
       WideRows rows(solution.conflict.size(), 6);
       WideVectorX bounds(solution.conflict.size());
       for (int i = 0; i < solution.conflict.size(); ++i) {
@@ -313,8 +317,6 @@ void check_answer(const feeler::QpProblem<Scalar>& problem, feeler::QpStatus sta
       // A row with a bound too tight by rounding is in conflict as far as the scalar can tell.
       bounds.array() += 256 * epsilon * WideReal(scale);
       BOOST_TEST(are_infeasible(rows, bounds, reach));
-      const BruteForceOptimum optimum(wide, 0);
-      BOOST_TEST((!optimum.exists || optimum.step.norm() > reach * 1e-3L));
     }
   }
 }
@@ -329,14 +331,16 @@ void check_qp_laws(unsigned seed = 1, int problems_per_family = 300) {
   std::mt19937 bits(seed);
   Solver solver, other;
   Solution solution, again;
-  int feasible = 0, infeasible = 0;
+  int feasible = 0, infeasible = 0, unfinished = 0;
 
   for (int family = 0; family < random_problem_families; ++family) {
     for (int i = 0; i < problems_per_family; ++i) {
       const double scale = magnitude(bits, -6, 3);
       const Problem problem = random_problem<Scalar>(bits, family, scale);
       const feeler::QpStatus status = solver.solve(problem, solution);
-      (status == feeler::QpStatus::optimal ? feasible : infeasible)++;
+      (status == feeler::QpStatus::optimal           ? feasible
+       : status == feeler::QpStatus::iteration_limit ? unfinished
+                                                     : infeasible)++;
       check_answer(problem, status, solution, scale,
                    "family " + std::to_string(family) + " problem " + std::to_string(i));
       // The same input gives the same bits: with a solver that knows it, and with one that knows another.
@@ -349,6 +353,7 @@ void check_qp_laws(unsigned seed = 1, int problems_per_family = 300) {
   }
   BOOST_TEST(feasible > problems_per_family);
   BOOST_TEST(infeasible > problems_per_family / 10);
+  BOOST_TEST(unfinished <= problems_per_family / 100);
 
   // Without rows the answer is −H⁻¹g; with a row that says nothing too; a row of zeros can not be met.
   Problem problem = random_problem<Scalar>(bits, 0, 1);

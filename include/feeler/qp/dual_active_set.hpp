@@ -1,6 +1,7 @@
 // The default QP solver: the dual active-set method of Goldfarb and Idnani, in operator form.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
@@ -45,6 +46,8 @@ class DualActiveSet {
     while (solution.iterations < limit) {
       const int entering = most_violated(problem, x);
       if (entering < 0) {
+        ++solution.iterations;
+        if (correct_active_rows(problem, x)) continue;
         status = QpStatus::optimal;
         break;
       }
@@ -129,8 +132,36 @@ class DualActiveSet {
     return isfinite(sum);
   }
 
+  /// Rounding of a row's value at x, for a row of size one.
+  static Scalar rounding_at(const Vector6<Scalar>& x) noexcept {
+    return 8 * std::numeric_limits<Scalar>::epsilon() * x.template lpNorm<Eigen::Infinity>();
+  }
+
+  /// Undoes the drift of x off the active rows where it exceeds the tolerance, and says whether it did.
+  bool correct_active_rows(const Problem& problem, Vector6<Scalar>& x) noexcept {
+    using std::abs;
+    const Scalar rounding = rounding_at(x);
+    Vector6<Scalar> correction = Vector6<Scalar>::Zero();
+    bool has_drifted = false;
+    for (int i = 0; i < count_; ++i) {
+      const auto row = index(active_[index(i)]);
+      const Vector6<Scalar>& a = problem.rows[row];
+      const Scalar lacking = problem.bounds[row] - a.dot(x);
+      has_drifted = has_drifted || abs(lacking) > tolerance + rounding * a.template lpNorm<1>();
+      correction += lacking * dual_[index(i)];
+    }
+    if (!has_drifted) return false;
+    x += correction;
+    const Vector6<Scalar> curved = problem.hessian * correction;
+    for (int i = 0; i < count_; ++i) {
+      const Scalar u = multiplier_[index(i)] + dual_[index(i)].dot(curved);
+      multiplier_[index(i)] = u > Scalar(0) ? u : Scalar(0);
+    }
+    return true;
+  }
+
   int most_violated(const Problem& problem, const Vector6<Scalar>& x) const noexcept {
-    const Scalar rounding = 8 * std::numeric_limits<Scalar>::epsilon() * x.template lpNorm<Eigen::Infinity>();
+    const Scalar rounding = rounding_at(x);
     Scalar best = Scalar(0);
     int entering = -1;
     for (int k = 0; k < problem.row_count; ++k) {
@@ -159,6 +190,9 @@ class DualActiveSet {
   QpStatus enter(const Problem& problem, int p, int limit, Vector6<Scalar>& x, Solution& solution) noexcept {
     const Vector6<Scalar>& a = problem.rows[index(p)];
     const Scalar whole = a.dot(inverse_ * a);
+    // Squared sine under which a row is dependent: of 1e-8 rad, or of what rounding leaves of a row projected twice.
+    const Scalar rounding = 16 * std::numeric_limits<Scalar>::epsilon();
+    const Scalar dependence = std::max(Scalar(1e-16), Scalar(rounding * rounding));
     Scalar multiplier = Scalar(0);
     while (++solution.iterations <= limit) {
       Vector6<Scalar> z = projector_ * a;
@@ -166,7 +200,7 @@ class DualActiveSet {
       for (int i = 0; i < count_; ++i) r[index(i)] = dual_[index(i)].dot(a);
       if (a.dot(z) < Scalar(1e-3) * whole) project_again(problem, z);
       const Scalar slope = a.dot(z);
-      const bool is_dependent = count_ == 6 || !(slope > Scalar(1e-16) * whole);
+      const bool is_dependent = count_ == 6 || !(slope > dependence * whole);
 
       Scalar dual_step = std::numeric_limits<Scalar>::infinity();
       int leaving = -1;
