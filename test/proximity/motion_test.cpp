@@ -195,6 +195,33 @@ BOOST_AUTO_TEST_CASE(a_cached_plane_keeps_its_distance_over_the_whole_motion_and
   }
 }
 
+BOOST_AUTO_TEST_CASE(the_limit_of_a_plane_is_as_high_as_a_point_that_swings_through_its_lowest_allows) {
+  // One point swings about the reference point and moves along the normal meanwhile: all of the sagitta is
+  // used.
+  const feeler::Segment<double> arm(Vector::Zero(), Vector(0.1, 0, 0));
+  for (const double angle : {0.01, 0.1, 0.5}) {
+    for (const double rise : {0.0, 0.2, -0.7, 0.95}) {  // of what would leave no lowest point in between
+      feeler::Pose<double> pose;
+      pose.rotation =
+          Eigen::AngleAxisd(std::acos(0.0) - angle / 2, Vector::UnitY());  // hangs down at half of the time
+      feeler::Twist<double> motion{Vector::Zero(), Vector(0, angle, 0)};
+      motion.linear.z() = rise * angle * angle * 0.1 / 2;
+      const feeler::MovingTool<feeler::Segment<double>> moving(arm, Vector::Zero(), 0.1, pose, motion);
+      const double limit = feeler::PlaneCache<double>::limit_of(Vector::UnitZ(), moving, moving.frame_at(0),
+                                                                moving.frame_at(1), 0);
+      WideReal lowest = 0;
+      for (int k = 0; k <= 10000; ++k) {
+        const WideReal t = WideReal(k) / 10000;
+        lowest =
+            std::min(lowest, t * WideReal(motion.linear.z()) - 0.1L * std::cos((t - 0.5L) * WideReal(angle)));
+      }
+      const WideReal sagitta = WideReal(angle * angle) * 0.1L / 8;
+      BOOST_TEST(lowest >= WideReal(limit) - 1e-16L);
+      BOOST_TEST(lowest <= WideReal(limit) + 0.03L * sagitta + 1e-16L);
+    }
+  }
+}
+
 BOOST_AUTO_TEST_CASE(
     a_full_cache_gives_up_the_plane_with_the_fewest_hits_and_keeps_the_others_in_order_of_use) {
   std::mt19937 bits(6);
