@@ -134,6 +134,39 @@ BOOST_AUTO_TEST_CASE(a_tetrahedron_whose_last_point_came_last_is_reduced_to_the_
   BOOST_TEST(worst < 1e-11L);
 }
 
+BOOST_AUTO_TEST_CASE(a_tetrahedron_in_any_order_gives_its_point_closest_to_the_origin) {
+  constexpr unsigned seed = 4;
+  BOOST_TEST_MESSAGE("seed " << seed);
+  std::mt19937 bits(seed);
+  WideReal worst = 0;
+  for (int i = 0; i < 10000; ++i) {
+    const Vector offset = random_vector(bits);
+    std::vector<Vector> points;
+    for (int k = 0; k < 4; ++k) points.push_back(offset + random_vector(bits));
+    Simplex<double> simplex = simplex_of(points);
+    const bool is_outside = feeler::detail::reduce_to_closest(simplex);
+    const WideReal distance = distance_of_origin(points);
+    BOOST_TEST(is_outside == (distance > 0));
+    worst = std::max(worst, std::abs(WideReal(simplex.closest.norm()) - distance));
+  }
+  BOOST_TEST(worst < 1e-12L);
+}
+
+BOOST_AUTO_TEST_CASE(two_equal_corners_leave_the_edge_to_the_third) {
+  // The closest point of the segment between them is (1, 0, 0), with the equal pair at either end and in any
+  // order.
+  for (const Vector& twice : {Vector(1, 1, 0), Vector(1, -2, 0)}) {
+    const Vector once(1, twice.y() > 0 ? -2 : 1, 0);
+    for (const auto& points :
+         {std::vector<Vector>{twice, twice, once}, {twice, once, twice}, {once, twice, twice}}) {
+      Simplex<double> simplex = simplex_of(points);
+      BOOST_TEST_REQUIRE(feeler::detail::reduce_to_closest(simplex));
+      BOOST_TEST((simplex.closest - Vector::UnitX()).norm() < 1e-15);
+      BOOST_TEST(simplex.size == 2);
+    }
+  }
+}
+
 BOOST_AUTO_TEST_CASE(degenerate_simplices_give_a_point_of_theirs) {
   const Vector a(1, 0, 0), b(2, 0, 0), c(3, 0, 0);
   for (const auto& points :

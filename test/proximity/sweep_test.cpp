@@ -24,12 +24,15 @@ using Box = feeler::Box<double>;
 
 namespace {
 
-/// A soup of triangles of all shapes in a cube of half a metre, `offset` from the origin.
+/// A soup of triangles of all shapes about `offset`, with centres in a box of half extents `room` and sizes
+/// of about `size` / 10.
 struct Soup {
-  Soup(std::mt19937& bits, int count, const Vector& offset) : vertices(3 * count, 3), triangles(count, 3) {
+  Soup(std::mt19937& bits, int count, const Vector& offset, const Vector& room = Vector(0.5, 0.5, 0.5),
+       double size = 0.5)
+      : vertices(3 * count, 3), triangles(count, 3) {
     for (int i = 0; i < count; ++i) {
-      const Vector centre = 0.5 * random_vector(bits);
-      const Eigen::Matrix3d corners = 0.5 * random_triangle(bits, random_shape(bits));
+      const Vector centre = room.cwiseProduct(random_vector(bits));
+      const Eigen::Matrix3d corners = size * random_triangle(bits, random_shape(bits));
       for (int k = 0; k < 3; ++k) {
         vertices.row(3 * i + k) = (offset + centre + corners.col(k)).transpose();
         triangles(i, k) = 3 * i + k;
@@ -46,10 +49,11 @@ struct Tally {
 };
 
 /// Random motions from free poses: certified times against samples, blockers against distances.
-void check_soup(unsigned seed, int triangles, const Vector& offset, int count, WideReal rounding) {
+void check_soup(unsigned seed, const Soup& soup, const Vector& offset, double room, int count,
+                WideReal rounding) {
   BOOST_TEST_MESSAGE("seed " << seed);
   std::mt19937 bits(seed);
-  const Soup soup(bits, triangles, offset);
+  const auto triangles = int(soup.triangles.rows());
   const TriangleMesh<double> mesh(soup.vertices, soup.triangles);
   const CheckedObject object(soup.vertices, soup.triangles);
   PlaneCache<double> planes;  // kept from motion to motion, as the renderer does
@@ -64,7 +68,7 @@ void check_soup(unsigned seed, int triangles, const Vector& offset, int count, W
         tool = Box(
             Vector(magnitude(bits, -2.3, -1.3), magnitude(bits, -2.3, -1.3), magnitude(bits, -2.3, -1.3)));
         random = RandomMotion<Box>(bits, tool);
-        random.pose.translation += offset + 0.4 * random_vector(bits);
+        random.pose.translation = offset + room * random_vector(bits);
       } while (deepest_penetration(object, feeler::test::checked_tool(tool), random.wide().pose_at(0)).depth >
                0);
       if (i % 4 == 0) random.motion.linear = 1e3 * random_direction(bits);  // teleports
@@ -154,15 +158,24 @@ void check_soup(unsigned seed, int triangles, const Vector& offset, int count, W
 BOOST_AUTO_TEST_SUITE(sweep)
 
 BOOST_AUTO_TEST_CASE(a_certified_motion_through_a_soup_meets_no_triangle_in_any_sample) {
-  check_soup(1, 1000, Vector::Zero(), 500, 0);
+  std::mt19937 bits(11);
+  check_soup(1, Soup(bits, 1000, Vector::Zero()), Vector::Zero(), 0.5, 500, 0);
 }
 BOOST_AUTO_TEST_CASE(a_certified_motion_through_a_sparse_soup_meets_no_triangle_in_any_sample) {
-  check_soup(2, 100, Vector::Zero(), 500, 0);
+  std::mt19937 bits(12);
+  check_soup(2, Soup(bits, 100, Vector::Zero()), Vector::Zero(), 0.5, 500, 0);
+}
+BOOST_AUTO_TEST_CASE(a_certified_motion_over_a_rough_ground_meets_no_triangle_in_any_sample) {
+  // Small triangles in a thin layer: whole boxes of them pass by one plane.
+  std::mt19937 bits(13);
+  check_soup(6, Soup(bits, 2000, Vector::Zero(), Vector(0.2, 0.2, 0.002), 0.02), Vector::Zero(), 0.1, 500, 0);
 }
 BOOST_AUTO_TEST_CASE(a_kilometre_from_the_origin_the_certificate_holds_to_the_rounding_there) {
   // Poses and vertices are exact numbers there, too: only the arithmetic rounds, relative to the start of the
   // motion.
-  check_soup(3, 1000, Vector(1e3, -1e3, 1e3), 300, 1e-11L);
+  std::mt19937 bits(14);
+  const Vector offset(1e3, -1e3, 1e3);
+  check_soup(3, Soup(bits, 1000, offset), offset, 0.5, 300, 1e-11L);
 }
 
 BOOST_AUTO_TEST_CASE(a_tool_at_rest_is_free_exactly_where_it_penetrates_nothing) {
