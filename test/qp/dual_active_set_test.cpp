@@ -2,6 +2,7 @@
 
 #include <boost/test/unit_test.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -96,6 +97,28 @@ BOOST_AUTO_TEST_CASE(a_slot_that_is_too_narrow_is_infeasible_and_the_conflict_na
   BOOST_TEST((solver.solve(problem, solution) == QpStatus::infeasible));
   BOOST_TEST_REQUIRE(solution.conflict.size() == 2);
   BOOST_TEST(solution.conflict[0] + solution.conflict[1] == 3);
+}
+
+BOOST_AUTO_TEST_CASE(a_step_called_optimal_meets_every_row_in_float_too) {
+  constexpr unsigned seed = 6;
+  BOOST_TEST_MESSAGE("seed " << seed);
+  std::mt19937 bits(seed);
+  DualActiveSet<float> solver;
+  feeler::QpSolution<float> solution;
+  int optimal = 0;
+  for (int i = 0; i < 30000; ++i) {
+    const double scale = feeler_test::magnitude(bits, -6, 3);
+    const auto problem =
+        feeler_test::random_problem<float>(bits, 2 + i % 2, scale);  // slots and rank-deficient rows
+    if (solver.solve(problem, solution) != QpStatus::optimal) continue;
+    ++optimal;
+    const auto kkt = feeler_test::kkt_residuals(feeler_test::WideProblem(problem), solution);
+    const long double length = solution.step.cast<long double>().norm() + static_cast<long double>(scale);
+    const long double missed = std::max(kkt.violation, kkt.slackness);
+    if (missed > 64 * static_cast<long double>(std::numeric_limits<float>::epsilon()) * length)
+      BOOST_ERROR("problem " << i << " misses a row by " << missed << " at a length of " << length);
+  }
+  BOOST_TEST(optimal > 15000);
 }
 
 BOOST_AUTO_TEST_CASE(units_that_differ_by_a_power_of_two_give_the_same_bits) {
