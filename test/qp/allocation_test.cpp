@@ -11,7 +11,7 @@ BOOST_AUTO_TEST_SUITE(qp_allocation)
 
 #if FEELER_TEST_COUNTS_ALLOCATIONS
 BOOST_AUTO_TEST_CASE(solving_allocates_nothing_and_the_count_would_show_it) {
-  BOOST_TEST(feeler_test::count_works<Eigen::VectorXd>());
+  BOOST_TEST(feeler_test::count_works());
   constexpr unsigned seed = 5;
   BOOST_TEST_MESSAGE("seed " << seed);
   std::mt19937 bits(seed);

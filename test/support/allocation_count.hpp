@@ -2,6 +2,8 @@
 // include it.
 #pragma once
 
+#include <Eigen/Core>
+
 #include <cstddef>
 #include <cstdint>
 
@@ -30,9 +32,24 @@ inline thread_local std::int64_t allocations = 0;
 
 extern "C" {
 void* __libc_malloc(std::size_t size);
+void* __libc_calloc(std::size_t count, std::size_t size);
+void* __libc_realloc(void* memory, std::size_t size);
+void* __libc_memalign(std::size_t alignment, std::size_t size);
 [[gnu::noinline]] void* malloc(std::size_t size) {
   ++feeler_test::allocations;
   return __libc_malloc(size);
+}
+[[gnu::noinline]] void* calloc(std::size_t count, std::size_t size) {
+  ++feeler_test::allocations;
+  return __libc_calloc(count, size);
+}
+[[gnu::noinline]] void* realloc(void* memory, std::size_t size) {
+  ++feeler_test::allocations;
+  return __libc_realloc(memory, size);
+}
+[[gnu::noinline]] void* aligned_alloc(std::size_t alignment, std::size_t size) {
+  ++feeler_test::allocations;
+  return __libc_memalign(alignment, size);
 }
 }
 
@@ -47,14 +64,13 @@ std::int64_t allocations_during(const Call& call) {
 }
 
 /// Whether the count sees what `new` and what Eigen take.
-template <class Vector>
-bool count_works() {
+inline bool count_works() {
   const auto by_new = allocations_during([] {
     int* volatile canary = new int(1);
     delete canary;
   });
   const auto by_eigen = allocations_during([] {
-    const Vector canary(1000);
+    const Eigen::VectorXd canary(1000);
     const volatile auto* data = canary.data();
     static_cast<void>(data);
   });
