@@ -245,7 +245,7 @@ BOOST_AUTO_TEST_CASE(a_known_triangle_is_examined_whether_or_not_the_traversal_w
 
 #if FEELER_TEST_COUNTS_ALLOCATIONS
 BOOST_AUTO_TEST_CASE(certifying_allocates_nothing_and_the_count_would_show_it) {
-  BOOST_TEST(feeler_test::count_works<Eigen::VectorXd>());
+  BOOST_TEST(feeler_test::count_works());
   std::mt19937 bits(6);
   const Soup soup(bits, 500, Vector::Zero());
   const TriangleMesh<double> mesh(soup.vertices, soup.triangles);
