@@ -7,7 +7,7 @@
 #include "feeler/proximity/separation.hpp"
 #include "support/random_tools.hpp"
 
-using feeler::ClosestFeatures;
+using feeler::WitnessFeatures;
 using feeler::ClosestPoints;
 using feeler::test::closest_features;
 using feeler::test::WidePair;
@@ -69,7 +69,7 @@ Worst check_random_pairs(unsigned seed, int count, const MakeTool& make_tool) {
       check(tool, corners, cold, expected, worst);
       // From its own features and from any others: the same distance.
       check(tool, corners, feeler::gjk(tool, corners, cold.features, touching), expected, worst);
-      ClosestFeatures warm;
+      WitnessFeatures warm;
       warm.size = 1 + below(bits, 3);
       for (std::size_t k = 0; k < 3; ++k) {
         warm.tool_vertices[k] = short(below(bits, tool.vertex_count()));
@@ -125,7 +125,7 @@ BOOST_AUTO_TEST_CASE(shapes_that_overlap_are_touching_from_any_start) {
     const Eigen::Matrix3d corners = random_triangle(bits, Shape::ordinary);
     if (!feeler::test::intersect(WideTool(box), wide(corners))) continue;
     ++overlapping;
-    ClosestFeatures warm;
+    WitnessFeatures warm;
     warm.size = below(bits, 4);
     for (std::size_t k = 0; k < 3; ++k) {
       warm.tool_vertices[k] = short(below(bits, 8));

@@ -12,7 +12,7 @@ template <class Scalar>
 struct WorkingPair {
   int triangle = -1;
   Matrix3<Scalar> corners_world;  ///< a corner a column [m]
-  ClosestFeatures features;       ///< where the last query ended
+  WitnessFeatures features;       ///< where the last query ended
   Vector3<Scalar> normal = Vector3<Scalar>::Zero();  ///< world normal that separates at the certified pose, or zero
   Scalar slack = Scalar(0);                          ///< separation there [m]
   int idle_ticks = 0;       ///< ticks since it held the tool or blocked a motion

@@ -12,7 +12,7 @@
 namespace feeler {
 
 /// The features on which a query ended, to start the next one from: pairs of tool vertex and triangle corner.
-struct ClosestFeatures {
+struct WitnessFeatures {
   int size = 0;
   std::array<short, 3> tool_vertices{};
   std::array<short, 3> corners{};
@@ -26,7 +26,7 @@ struct ClosestPoints {
   Scalar distance = Scalar(0);                        ///< least separation along the normal [m]; a proof, not an estimate
   Vector3<Scalar> tool_point = Vector3<Scalar>::Zero();
   Vector3<Scalar> triangle_point = Vector3<Scalar>::Zero();
-  ClosestFeatures features;
+  WitnessFeatures features;
 };
 
 /// Closest points of a tool and a triangle.
@@ -39,7 +39,7 @@ struct ClosestPoints {
 /// @cost  noexcept, no allocation, at most 32 support calls, mostly 2 to 5
 template <ConvexTool Tool>
 ClosestPoints<typename Tool::Scalar> gjk(const Tool& tool, const Matrix3<typename Tool::Scalar>& triangle,
-                                         const ClosestFeatures& warm,
+                                         const WitnessFeatures& warm,
                                          typename Tool::Scalar touching_distance) noexcept {
   using Scalar = typename Tool::Scalar;
   using std::sqrt;

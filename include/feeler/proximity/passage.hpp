@@ -39,7 +39,7 @@ template <class Scalar>
 struct PassedTriangle {
   Matrix3<Scalar> corners;                           ///< relative to `MovingTool::origin()` [m]
   Vector3<Scalar> normal = Vector3<Scalar>::Zero();  ///< a plane known to separate at the start, or zero
-  ClosestFeatures features;                          ///< of an earlier query, or empty
+  WitnessFeatures features;                          ///< of an earlier query, or empty
   bool is_exact = false;  ///< find the time of contact to `Clearance::resolution`, not to a sixteenth of the motion
 };
 
@@ -128,7 +128,7 @@ Passage<typename Tool::Scalar> pass(const MovingTool<Tool>& moving, const Passed
   using Scalar = typename Tool::Scalar;
   using Plane = detail::HeldPlane<Scalar>;
   const Matrix3<Scalar>& corners = triangle.corners;
-  ClosestFeatures warm = triangle.features;
+  WitnessFeatures warm = triangle.features;
   // Where shapes overlap only the sign matters, unless they touched from the start: then the least overlap decides.
   const auto query = [&](const MotionFrame<Scalar>& frame, bool touches) {
     ++work;

@@ -1,0 +1,371 @@
+// Candidate principal contacts: what could hold the tool near a first contact, found by a search over neighbouring features.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+
+#include "feeler/contact/contact_row.hpp"
+#include "feeler/contact/first_contacts.hpp"
+#include "feeler/core/fixed_vector.hpp"
+#include "feeler/core/scalar.hpp"
+#include "feeler/object/triangle_mesh.hpp"
+#include "feeler/spatial/pose.hpp"
+#include "feeler/tool/convex_tool.hpp"
+
+namespace feeler {
+
+/// One inequality of a candidate, by the features that it is between.
+struct CandidateConstraint {
+  FeaturePair kind = FeaturePair::vertex_face;
+  int tool_feature = -1;  ///< number of the vertex, face or edge, by kind
+  int triangle = -1;      ///< the triangle whose plane, corner or edge it is
+  int corner = 0;         ///< of the triangle: its corner or the edge that starts there, by kind
+  bool is_behind = false; ///< the tool is on the side that the triangle's normal points away from
+};
+
+/// A candidate principal contact (CPC): inequalities that together describe one convex piece of the free space.
+struct Candidate {
+  static constexpr int capacity = 48;
+  FixedVector<CandidateConstraint, capacity> constraints;
+};
+
+/// The candidates of one contact region.
+struct RegionCandidates {
+  static constexpr int capacity = 16;
+  FixedVector<Candidate, capacity> candidates;
+  int dropped = 0;  ///< candidates, constraints and triangles for which there was no room
+};
+
+/// Finds the candidates of first contacts (paper, section III.C and Fig. 8). The table of neighbours that the paper
+/// makes by hand is read from the topology of mesh and tool, so any mesh and any convex tool will do.
+///
+/// On the object the neighbours of a feature are those of the triangles that share a corner with its triangle; on the tool those that share
+/// a face with it. Of them it makes
+/// - for each plane the candidate that keeps every neighbouring tool vertex above it (type 1, eq. 6), together with the planes that meet it
+///   in a valley or a pit (types 3, 4 and 5, eq. 8);
+/// - for each ridge and each tool edge over it the candidate of the dynamic constraint plane (type 2, eq. 7);
+/// - for each tip and each tool face over it the candidate of the face's plane.
+///
+/// Faces on faces, edges on faces and faces on edges (types 6, 7, 11 and 12) are several of these inequalities at once.
+template <ConvexTool Tool, class MeshScalar>
+class LocalSearch {
+ public:
+  using Scalar = typename Tool::Scalar;
+  using Vector = Vector3<Scalar>;
+
+  static constexpr int ring_capacity = 48;
+
+  /// @param reach  how far apart features that will meet within the tick may be now [m]
+  LocalSearch(const Tool& tool, const TriangleMesh<MeshScalar>& mesh, const Pose<Scalar>& pose, Scalar reach) noexcept
+      : tool_(tool), mesh_(mesh), pose_(pose), axes_(pose.rotation.toRotationMatrix()), reach_(reach) {}
+
+  /// The triangles that share a corner with one, itself first.
+  FixedVector<int, ring_capacity> ring(int triangle) const noexcept {
+    FixedVector<int, ring_capacity> result;
+    result.push_back(triangle);
+    const auto& corners = mesh_.triangle(triangle);
+    for (int i = 0; i < result.size(); ++i) {
+      for (int k = 0; k < 3; ++k) {
+        const int other = mesh_.topology().neighbour(result[i], k);
+        if (other < 0 || std::find(result.begin(), result.end(), other) != result.end()) continue;
+        const auto& theirs = mesh_.triangle(other);
+        const bool shares = std::any_of(theirs.begin(), theirs.end(), [&](int v) {
+          return std::find(corners.begin(), corners.end(), v) != corners.end();
+        });
+        if (shares && !result.push_back(other)) return result;
+      }
+    }
+    return result;
+  }
+
+  void find(const FirstContact& contact, RegionCandidates& region) noexcept {
+    region.candidates.clear();
+    region.dropped = 0;
+    ring_ = ring(contact.triangle);
+    if (ring_.full()) ++region.dropped;
+    is_behind_ = is_behind(contact);
+    gather_tool_neighbours(contact);
+    gather_planes(region);
+    add_planes(region);
+    add_edges(region);
+    add_tips(region);
+  }
+
+ private:
+  struct Plane {
+    int triangle = -1;
+    Vector normal = Vector::Zero();  // towards the tool's side
+    Vector point = Vector::Zero();
+    std::uint64_t members = 0;  // which triangles of the ring lie in it
+  };
+
+  static std::size_t index(int i) noexcept { return std::size_t(i); }
+  Vector corner(int triangle, int k) const noexcept {
+    return mesh_.vertex(mesh_.triangle(triangle)[index(k)]).template cast<Scalar>();
+  }
+  Vector tool_vertex(int i) const noexcept { return pose_ * tool_.vertex(i); }
+  Vector outward(int triangle) const noexcept {
+    const Vector normal = mesh_.normal(triangle).template cast<Scalar>();
+    return is_behind_ ? Vector(-normal) : normal;
+  }
+
+  /// Meshes may be open, and then the tool may be behind them.
+  bool is_behind(const FirstContact& contact) const noexcept {
+    const Vector normal = mesh_.normal(contact.triangle).template cast<Scalar>();
+    const Vector point = corner(contact.triangle, 0);
+    Scalar highest(0), lowest(0);
+    for (int i = 0; i < tool_.vertex_count(); ++i) {
+      const Scalar height = normal.dot(tool_vertex(i) - point);
+      highest = std::max(highest, height);
+      lowest = std::min(lowest, height);
+    }
+    return -lowest > highest;
+  }
+
+  Convexity convexity(Convexity given) const noexcept {
+    if (given == Convexity::boundary || given == Convexity::non_manifold) return Convexity::convex;
+    if (!is_behind_ || given == Convexity::flat || given == Convexity::mixed) return given;
+    return given == Convexity::convex ? Convexity::concave : Convexity::convex;
+  }
+  Convexity edge_convexity(int triangle, int k) const noexcept {
+    return convexity(mesh_.topology().edge_convexity(triangle, k));
+  }
+
+  void gather_tool_neighbours(const FirstContact& contact) noexcept {
+    std::array<bool, 256> is_own{};
+    is_near_.fill(false);
+    for (int i = 0; i < contact.features.size; ++i) is_own[index(contact.features.tool_vertices[index(i)])] = true;
+    is_near_ = is_own;
+    for (int e = 0; e < tool_.edge_count(); ++e) {
+      const ToolEdge edge = tool_.edge(e);
+      if (is_own[index(edge.start)] || is_own[index(edge.end)]) is_near_[index(edge.start)] = is_near_[index(edge.end)] = true;
+    }
+    for (int f = 0; f < tool_.face_count(); ++f) {
+      const auto face = tool_.face(f);
+      if (std::none_of(face.vertices.begin(), face.vertices.end(), [&](int v) { return is_own[index(v)]; })) continue;
+      for (const int v : face.vertices) is_near_[index(v)] = true;
+    }
+  }
+
+  void gather_planes(RegionCandidates& region) noexcept {
+    planes_.clear();
+    constexpr Scalar parallel = Scalar(1e-9);
+    for (int i = 0; i < ring_.size(); ++i) {
+      const Vector normal = outward(ring_[i]);
+      if (normal.isZero()) continue;
+      const Vector point = corner(ring_[i], 0);
+      auto same = std::find_if(planes_.begin(), planes_.end(), [&](const Plane& plane) {
+        return (plane.normal - normal).squaredNorm() < parallel * parallel &&
+               std::abs(plane.normal.dot(point - plane.point)) < Scalar(1e-9);
+      });
+      if (same == planes_.end()) {
+        if (!planes_.push_back({ring_[i], normal, point, 0})) {
+          ++region.dropped;
+          continue;
+        }
+        same = planes_.end() - 1;
+      }
+      same->members |= std::uint64_t(1) << i;
+    }
+  }
+
+  /// Whether two planes meet in a valley, or at a pit.
+  bool meet_concave(const Plane& a, const Plane& b) const noexcept {
+    for (int i = 0; i < ring_.size(); ++i) {
+      if ((a.members >> i & 1u) == 0) continue;
+      for (int k = 0; k < 3; ++k) {
+        const int other = mesh_.topology().neighbour(ring_[i], k);
+        if (other >= 0 && edge_convexity(ring_[i], k) == Convexity::concave && is_member(b, other)) return true;
+        const int vertex = mesh_.triangle(ring_[i])[index(k)];
+        if (convexity(mesh_.topology().vertex_convexity(vertex)) == Convexity::concave && has_vertex(b, vertex)) return true;
+      }
+    }
+    return false;
+  }
+  bool is_member(const Plane& plane, int triangle) const noexcept {
+    for (int i = 0; i < ring_.size(); ++i) {
+      if (ring_[i] == triangle) return (plane.members >> i & 1u) != 0;
+    }
+    return false;
+  }
+  bool has_vertex(const Plane& plane, int vertex) const noexcept {
+    for (int i = 0; i < ring_.size(); ++i) {
+      if ((plane.members >> i & 1u) == 0) continue;
+      const auto& corners = mesh_.triangle(ring_[i]);
+      if (std::find(corners.begin(), corners.end(), vertex) != corners.end()) return true;
+    }
+    return false;
+  }
+
+  void add_planes(RegionCandidates& region) noexcept {
+    FixedVector<std::uint64_t, plane_capacity> known;  // the sets of planes so far
+    for (int i = 0; i < planes_.size(); ++i) {
+      std::uint64_t set = std::uint64_t(1) << i;
+      for (int j = 0; j < planes_.size(); ++j) {
+        if (j != i && meet_concave(planes_[i], planes_[j])) set |= std::uint64_t(1) << j;
+      }
+      if (std::find(known.begin(), known.end(), set) != known.end()) continue;
+      known.push_back(set);
+      Candidate candidate;
+      for (int j = 0; j < planes_.size(); ++j) {
+        if ((set >> j & 1u) != 0) add_plane(planes_[j], candidate, region);
+      }
+      add(candidate, region);
+    }
+  }
+
+  void add_plane(const Plane& plane, Candidate& candidate, RegionCandidates& region) const noexcept {
+    for (int v = 0; v < tool_.vertex_count(); ++v) {
+      if (!is_near_[index(v)]) continue;
+      if (!candidate.constraints.push_back({FeaturePair::vertex_face, v, plane.triangle, 0, is_behind_})) ++region.dropped;
+    }
+  }
+
+  void add_edges(RegionCandidates& region) noexcept {
+    for (int e = 0; e < tool_.edge_count(); ++e) {
+      const ToolEdge edge = tool_.edge(e);
+      if (!is_near_[index(edge.start)] || !is_near_[index(edge.end)]) continue;
+      for (int i = 0; i < ring_.size(); ++i) {
+        for (int k = 0; k < 3; ++k) {
+          const int other = mesh_.topology().neighbour(ring_[i], k);
+          if (edge_convexity(ring_[i], k) != Convexity::convex || (other >= 0 && other < ring_[i] && is_in_ring(other))) continue;
+          if (!is_within_reach(e, ring_[i], k)) continue;
+          Candidate candidate;
+          candidate.constraints.push_back({FeaturePair::edge_edge, e, ring_[i], k, is_behind_});
+          add(candidate, region);
+        }
+      }
+    }
+  }
+
+  bool is_in_ring(int triangle) const noexcept { return std::find(ring_.begin(), ring_.end(), triangle) != ring_.end(); }
+
+  /// Whether a tool edge and an object edge are near each other: by the distance of segments, sampled where the lines are closest.
+  bool is_within_reach(int e, int triangle, int k) const noexcept {
+    const ToolEdge edge = tool_.edge(e);
+    const Vector a = tool_vertex(edge.start), u = tool_vertex(edge.end) - a;
+    const Vector b = corner(triangle, k), v = corner(triangle, (k + 1) % 3) - b;
+    const Vector cross = u.cross(v);
+    const Scalar area = cross.squaredNorm();
+    if (!(area > Scalar(1e-12) * u.squaredNorm() * v.squaredNorm())) return false;  // parallel: the planes hold the tool
+    const Scalar s = std::clamp((b - a).cross(v).dot(cross) / area, Scalar(0), Scalar(1));
+    const Scalar t = std::clamp((b - a).cross(u).dot(cross) / area, Scalar(0), Scalar(1));
+    return (a + s * u - b - t * v).squaredNorm() <= reach_ * reach_;
+  }
+
+  void add_tips(RegionCandidates& region) noexcept {
+    FixedVector<int, ring_capacity> known;
+    for (int i = 0; i < ring_.size(); ++i) {
+      for (int k = 0; k < 3; ++k) {
+        const int vertex = mesh_.triangle(ring_[i])[index(k)];
+        const Convexity shape = convexity(mesh_.topology().vertex_convexity(vertex));
+        if (shape == Convexity::concave || shape == Convexity::flat) continue;
+        if (std::find(known.begin(), known.end(), vertex) != known.end() || !known.push_back(vertex)) continue;
+        for (int f = 0; f < tool_.face_count(); ++f) {
+          const auto face = tool_.face(f);
+          if (std::none_of(face.vertices.begin(), face.vertices.end(), [&](int v) { return is_near_[index(v)]; })) continue;
+          const Scalar height = (axes_ * face.normal).dot(corner(ring_[i], k) - tool_vertex(face.vertices[0]));
+          if (std::abs(height) > reach_) continue;
+          Candidate candidate;
+          candidate.constraints.push_back({FeaturePair::face_vertex, f, ring_[i], k, is_behind_});
+          add(candidate, region);
+        }
+      }
+    }
+  }
+
+  static void add(const Candidate& candidate, RegionCandidates& region) noexcept {
+    if (!region.candidates.push_back(candidate)) ++region.dropped;
+  }
+
+  static constexpr int plane_capacity = 24;
+
+  const Tool& tool_;
+  const TriangleMesh<MeshScalar>& mesh_;
+  Pose<Scalar> pose_;
+  Matrix3<Scalar> axes_;
+  Scalar reach_;
+  FixedVector<int, ring_capacity> ring_;
+  bool is_behind_ = false;
+  std::array<bool, 256> is_near_{};
+  FixedVector<Plane, plane_capacity> planes_;
+};
+
+namespace detail {
+/// A direction out of the object between the two sides of a ridge; at a rim, out over it.
+template <class Scalar, class MeshScalar>
+Vector3<Scalar> out_of_ridge(const TriangleMesh<MeshScalar>& mesh, int triangle, int k, Scalar side) noexcept {
+  const Vector3<Scalar> own = side * mesh.normal(triangle).template cast<Scalar>();
+  const int other = mesh.topology().neighbour(triangle, k);
+  if (other >= 0) return own + side * mesh.normal(other).template cast<Scalar>();
+  const Matrix3<Scalar> corners = mesh.corners(triangle).template cast<Scalar>();
+  const Vector3<Scalar> along = corners.col((k + 1) % 3) - corners.col(k);
+  return own + side * Vector3<Scalar>(along.cross(own)).normalized();
+}
+}  // namespace detail
+
+/// The inequality of a constraint at a pose, as a row; `room` is how far inside both features the contact is, negative outside [m].
+/// @param pose  of the tool frame; the row's arm is relative to `reference_world` [m]
+template <ConvexTool Tool, class MeshScalar>
+ContactRow<typename Tool::Scalar> row_of(const CandidateConstraint& constraint, const Tool& tool,
+                                         const TriangleMesh<MeshScalar>& mesh, const Pose<typename Tool::Scalar>& pose,
+                                         const Vector3<typename Tool::Scalar>& reference_world) noexcept {
+  using Scalar = typename Tool::Scalar;
+  using Vector = Vector3<Scalar>;
+  const Matrix3<Scalar> corners = mesh.corners(constraint.triangle).template cast<Scalar>();
+  const Scalar side = constraint.is_behind ? Scalar(-1) : Scalar(1);
+  ContactRow<Scalar> row;
+  row.kind = constraint.kind;
+  row.triangle = constraint.triangle;
+  row.room = std::numeric_limits<Scalar>::infinity();
+  const Vector corner = corners.col(constraint.corner);
+  Vector point;
+  switch (constraint.kind) {
+    case FeaturePair::vertex_face: {  // eq. 6
+      point = pose * tool.vertex(constraint.tool_feature);
+      row.normal = side * mesh.normal(constraint.triangle).template cast<Scalar>();
+      row.gap = row.normal.dot(point - corners.col(0));
+      break;
+    }
+    case FeaturePair::face_vertex: {
+      const auto face = tool.face(constraint.tool_feature);
+      row.normal = -(pose.rotation * face.normal);
+      point = corner;
+      row.gap = row.normal.dot(pose * tool.vertex(face.vertices[0]) - corner);
+      for (std::size_t i = 0; i < face.vertices.size(); ++i) {
+        const Vector start = pose * tool.vertex(face.vertices[i]);
+        const Vector edge = pose * tool.vertex(face.vertices[(i + 1) % face.vertices.size()]) - start;
+        row.room = std::min(row.room, edge.cross(Vector(corner - start)).dot(Vector(-row.normal)) / edge.norm());
+      }
+      break;
+    }
+    case FeaturePair::edge_edge: {  // eq. 7
+      const ToolEdge edge = tool.edge(constraint.tool_feature);
+      const Vector start = pose * tool.vertex(edge.start);
+      const Vector along_tool = pose * tool.vertex(edge.end) - start;
+      const Vector along_object = corners.col((constraint.corner + 1) % 3) - corner;
+      const Scalar tool_length = along_tool.norm(), object_length = along_object.norm();
+      row.tool_edge = along_tool / tool_length;
+      row.object_edge = along_object / object_length;
+      const Vector cross = row.tool_edge.cross(row.object_edge);
+      const Scalar sine = std::max(cross.norm(), std::numeric_limits<Scalar>::epsilon());
+      row.normal = cross / sine;
+      if (row.normal.dot(detail::out_of_ridge<Scalar>(mesh, constraint.triangle, constraint.corner, side)) < Scalar(0)) row.normal = -row.normal;
+      const Vector between = start - corner;
+      const Vector turn = row.object_edge.cross(row.tool_edge);
+      const Scalar on_object = between.cross(row.tool_edge).dot(turn) / (sine * sine);
+      const Scalar on_tool = between.cross(row.object_edge).dot(turn) / (sine * sine);
+      row.room = std::min({on_object, object_length - on_object, on_tool, tool_length - on_tool});
+      point = start + on_tool * row.tool_edge;
+      row.gap = row.normal.dot(between);
+      break;
+    }
+  }
+  row.arm = point - reference_world;
+  return row;
+}
+
+}  // namespace feeler

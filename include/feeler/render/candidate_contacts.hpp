@@ -1,0 +1,435 @@
+// The paper's way of modelling contact: one optimisation for each combination of candidate principal contacts.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <type_traits>
+#include <utility>
+
+#include "feeler/contact/first_contacts.hpp"
+#include "feeler/contact/local_search.hpp"
+#include "feeler/core/fixed_vector.hpp"
+#include "feeler/core/status.hpp"
+#include "feeler/proximity/sweep.hpp"
+#include "feeler/render/contact_method.hpp"
+#include "feeler/render/rendered_scene.hpp"
+#include "feeler/render/step_coordinates.hpp"
+#include "feeler/render/tick.hpp"
+
+namespace feeler {
+
+/// What becomes of eq. 5, by which each coordinate of the new pose lies between its last value and the haptic pose's.
+enum class LocalSolution {
+  inside_box,       ///< twelve more rows in every optimisation
+  selected_by_box,  ///< solutions outside the box are not chosen
+  free,             ///< not used
+};
+
+/// How first contacts are found, and what is known of the motion.
+enum class CollisionDetection {
+  tool_vertices,  ///< the paper's: vertices are tracked from free space, overlaps at the haptic pose are looked for in contact
+  certificate,    ///< the motion to the solution is certified, and what blocks it is the next first contact
+};
+
+/// Choices of `CandidateContacts`; the defaults are the paper as written. They are fixed when compiling, and what is not chosen is not in
+/// the program.
+struct CandidateOptions {
+  LocalSolution local_solution = LocalSolution::selected_by_box;
+  CollisionDetection collision_detection = CollisionDetection::tool_vertices;
+  Increments increments = Increments::euler_angles;
+  int linearisations = 1;            ///< of the rows of one combination
+  int maximum_combinations = 64;     ///< optimisations a round; the rest is dropped, and counted
+  int maximum_regions = 4;           ///< contact regions followed at once
+};
+
+/// Follows the haptic pose as the paper does (section IV): first contacts from collision detection, candidates from a local search, an
+/// optimisation for each combination of them over the regions, and of the solutions the nearest to the haptic pose.
+///
+/// Without the certificate nothing proves that a pose is free of collision, and the status says `unverified`.
+/// @cost  noexcept, no allocation; bounded by the options, but in contact a distance query for every triangle in the bounding box of the tool
+template <ConvexTool ToolType, QpSolver Solver, CandidateOptions options>
+class CandidateContactsFollower {
+ public:
+  using Scene = RenderedScene<ToolType>;
+  using Scalar = typename Scene::Scalar;
+  using MeshScalar = typename Scene::MeshScalar;
+  using Tool = typename Scene::Tool;
+
+  const Pose<Scalar>& pose() const noexcept { return pose_; }
+  /// Combinations optimised in the last tick.
+  int combinations() const noexcept { return combinations_; }
+  /// Combinations, candidates, constraints, triangles and regions left out in the last tick because a bound was reached.
+  int dropped() const noexcept { return dropped_; }
+  /// The first contacts that the next tick starts from: the active principal contacts of the last.
+  int region_count() const noexcept { return regions_.size(); }
+
+  void reset(const Scene& scene, const Pose<Scalar>& pose) noexcept {
+    pose_ = target_ = pose;
+    regions_.clear();
+    active_.clear();
+    solutions_.clear();
+    if constexpr (is_certified) planes_.clear();
+    static_cast<void>(scene);
+  }
+
+  Status follow(const Scene& scene, const Pose<Scalar>& target, Tick<MeshScalar>& tick) noexcept {
+    start_ = pose_;
+    reach_ = 2 * scene.length_of(motion_between(target_, target)) + scene.trust_radius();
+    target_ = target;
+    combinations_ = dropped_ = 0;
+    tick.iterations = 0;
+    tick.rows = 0;
+    track_regions(scene, tick);
+    if constexpr (is_certified) {
+      return follow_certified(scene, tick) ? Status::converged : Status::unconverged;
+    } else {
+      ++tick.iterations;
+      find_first_contacts(scene);
+      optimise(scene, tick);
+      if (!solutions_.empty()) arrive(solutions_[0].pose, solutions_[0]);  // else there is nothing to choose: stay
+      tick.path.push_back(scene.tool_pose(pose_));
+      return Status::unverified;
+    }
+  }
+
+  /// The active rows of the combination chosen, at the graphic pose.
+  void report(const Scene& scene, Tick<MeshScalar>& tick) const noexcept {
+    const Scalar unit = Scalar(scene.settings().stiffness.translational.maxCoeff());
+    for (const Active& active : active_) {
+      const auto row = row_at(scene, active.constraint, pose_);
+      ActiveContact<MeshScalar> contact;
+      contact.triangle = row.triangle;
+      contact.point_world = (pose_.translation + row.arm).template cast<MeshScalar>();
+      contact.normal_world = row.normal.template cast<MeshScalar>();
+      contact.gap = MeshScalar(row.gap);
+      contact.force = MeshScalar(active.multiplier * unit);
+      tick.contacts.push_back(contact);
+    }
+  }
+
+ private:
+  static constexpr bool is_certified = options.collision_detection == CollisionDetection::certificate;
+  static constexpr std::size_t region_capacity = std::size_t(options.maximum_regions);
+  using Coordinates = StepCoordinates<Scalar, options.increments>;
+  using Row = ContactRow<Scalar>;
+
+  struct Active {
+    CandidateConstraint constraint;
+    Scalar multiplier = Scalar(0);
+    int region = 0;
+  };
+  using ActiveList = FixedVector<Active, QpSolution<Scalar>::active_capacity>;
+
+  /// The solution of one combination.
+  struct Solution {
+    Pose<Scalar> pose;
+    Scalar energy = Scalar(0);  // [m²]
+    ActiveList active;
+  };
+
+  static std::size_t index(int i) noexcept { return std::size_t(i); }
+
+  static Pose<Scalar> tool_frame(const Scene& scene, const Pose<Scalar>& pose) noexcept {
+    return {pose.translation - pose.rotation * scene.reference(), pose.rotation};
+  }
+  static Row row_at(const Scene& scene, const CandidateConstraint& constraint, const Pose<Scalar>& pose) noexcept {
+    return row_of(constraint, scene.tool(), scene.object(), tool_frame(scene, pose), pose.translation);
+  }
+
+  /// Each region follows the nearest triangle of its neighbourhood.
+  void track_regions(const Scene& scene, Tick<MeshScalar>& tick) noexcept {
+    const Pose<Scalar> frame = tool_frame(scene, pose_);
+    const LocalSearch<Tool, MeshScalar> search(scene.tool(), scene.object(), frame, Scalar(0));
+    for (FirstContact& region : regions_) {
+      FirstContact nearest = region;
+      Scalar least = std::numeric_limits<Scalar>::infinity();
+      for (const int triangle : search.ring(region.triangle)) {
+        ++tick.work;
+        const auto closest = closest_at(scene, triangle, frame);
+        if (closest.is_touching || !(closest.distance < least)) continue;
+        least = closest.distance;
+        nearest = {triangle, closest.features};
+      }
+      region = nearest;
+    }
+    for (int i = regions_.size() - 1; i > 0; --i) {
+      for (int j = 0; j < i; ++j) {
+        if (regions_[i].triangle != regions_[j].triangle) continue;
+        regions_.swap_remove(i);
+        break;
+      }
+    }
+  }
+
+  static ClosestPoints<Scalar> closest_at(const Scene& scene, int triangle, const Pose<Scalar>& frame) noexcept {
+    const Matrix3<Scalar> corners = scene.object().corners(triangle).template cast<Scalar>();
+    const Matrix3<Scalar> in_tool = frame.rotation.toRotationMatrix().transpose() * (corners.colwise() - frame.translation);
+    return gjk(scene.tool(), in_tool, {}, scene.clearance().touching);
+  }
+
+  /// Section IV, step 2.1: tracked vertices out of free space; in contact, regions overlapped at the haptic pose that are not yet followed.
+  void find_first_contacts(const Scene& scene) noexcept {
+    const Pose<Scalar> from = tool_frame(scene, pose_), to = tool_frame(scene, target_);
+    if (regions_.empty()) {
+      const FirstContact hit = first_vertex_hit(scene.tool(), scene.object(), from, to);
+      if (hit.triangle >= 0) regions_.push_back(hit);
+      if (regions_.empty()) return;
+    }
+    OverlappedTriangles overlapped = overlapped_triangles(scene.tool(), scene.object(), to, scene.clearance().touching);
+    if (!overlapped.is_complete) ++dropped_;
+    auto& left = overlapped.triangles;
+    const LocalSearch<Tool, MeshScalar> search(scene.tool(), scene.object(), from, Scalar(0));
+    for (const FirstContact& region : regions_) {
+      const auto ring = search.ring(region.triangle);
+      for (int i = left.size() - 1; i >= 0; --i) {
+        if (std::find(ring.begin(), ring.end(), left[i]) != ring.end()) left.swap_remove(i);
+      }
+    }
+    while (!left.empty()) {
+      FirstContact first;
+      Scalar least = std::numeric_limits<Scalar>::infinity();
+      for (const int triangle : remove_connected(scene, left, left[0])) {
+        const auto closest = closest_at(scene, triangle, from);
+        const Scalar distance = closest.is_touching ? Scalar(0) : closest.distance;
+        if (!(distance < least)) continue;
+        least = distance;
+        first = {triangle, closest.features};
+      }
+      if (least < reach_ && !regions_.push_back(first)) ++dropped_;
+    }
+  }
+
+  using TriangleList = FixedVector<int, OverlappedTriangles::capacity>;
+
+  /// Takes a triangle and all that are joined to it out of a list, and returns them.
+  static TriangleList remove_connected(const Scene& scene, TriangleList& list, int seed) noexcept {
+    TriangleList group;
+    const auto take = [&](int triangle) {
+      for (int i = 0; i < list.size(); ++i) {
+        if (list[i] != triangle) continue;
+        list.swap_remove(i);
+        group.push_back(triangle);
+        return;
+      }
+    };
+    take(seed);
+    for (int i = 0; i < group.size(); ++i) {
+      for (int k = 0; k < 3; ++k) take(scene.object().topology().neighbour(group[i], k));
+    }
+    return group;
+  }
+
+  /// Sections III.C and IV, steps 2.2 to 4: candidates, an optimisation for every combination of them, and the choice.
+  void optimise(const Scene& scene, Tick<MeshScalar>& tick) noexcept {
+    const Pose<Scalar> frame = tool_frame(scene, pose_);
+    LocalSearch<Tool, MeshScalar> search(scene.tool(), scene.object(), frame, reach_);
+    for (int i = 0; i < regions_.size(); ++i) {
+      search.find(regions_[i], found_[index(i)]);
+      dropped_ += found_[index(i)].dropped;
+    }
+    solutions_.clear();
+    std::array<int, region_capacity> choice{};
+    int tried = 0;
+    for (bool is_last = false; !is_last;) {
+      if (++tried <= options.maximum_combinations) {
+        try_combination(scene, choice, tick);
+      } else {
+        ++dropped_;
+        if (tried > 1024) break;  // more are not even counted
+      }
+      is_last = true;
+      for (int i = 0; i < regions_.size(); ++i) {
+        if (++choice[index(i)] < found_[index(i)].candidates.size()) {
+          is_last = false;
+          break;
+        }
+        choice[index(i)] = 0;
+      }
+    }
+    combinations_ += std::min(tried, options.maximum_combinations);
+  }
+
+  void try_combination(const Scene& scene, const std::array<int, region_capacity>& choice, Tick<MeshScalar>& tick) noexcept {
+    constraints_.clear();
+    for (int i = 0; i < regions_.size(); ++i) {
+      if (found_[index(i)].candidates.empty()) continue;
+      for (const CandidateConstraint& constraint : found_[index(i)].candidates[choice[index(i)]].constraints) {
+        if (!constraints_.push_back({constraint, Scalar(0), i})) ++dropped_;
+        // A piece of the free space that the tool cannot enter within a tick is not near.
+        if (row_at(scene, constraint, pose_).gap < -reach_) return;
+      }
+    }
+    Pose<Scalar> pose = pose_;
+    for (int round = 0; round < options.linearisations; ++round) {
+      const Coordinates coordinates(pose);
+      load(scene, coordinates, pose);
+      tick.rows = std::max(tick.rows, problem_.row_count);
+      if (solver_.solve(problem_, qp_solution_) != QpStatus::optimal) return;
+      pose = coordinates.pose_at(qp_solution_.step);
+      if (scene.length_of(Twist<Scalar>::from_vector(qp_solution_.step)) < Scalar(scene.settings().step_tolerance) / 50) break;
+    }
+    if (!is_admissible(scene, pose)) return;
+    Solution solution{pose, scene.metric().energy(motion_between(target_, pose)), {}};
+    for (const auto& active : qp_solution_.active) {
+      if (active.row >= constraints_.size()) continue;  // a side of the box
+      solution.active.push_back(constraints_[active.row]);
+      solution.active[solution.active.size() - 1].multiplier = active.multiplier;
+    }
+    keep(solution);
+  }
+
+  /// Keeps the best solutions, the nearest to the haptic pose first.
+  void keep(const Solution& solution) noexcept {
+    if (solutions_.full() && !(solution.energy < solutions_[solutions_.size() - 1].energy)) return;
+    if (solutions_.full()) solutions_.pop_back();
+    solutions_.push_back(solution);
+    for (int i = solutions_.size() - 1; i > 0 && solutions_[i].energy < solutions_[i - 1].energy; --i) {
+      std::swap(solutions_[i], solutions_[i - 1]);
+    }
+  }
+
+  void load(const Scene& scene, const Coordinates& coordinates, const Pose<Scalar>& pose) noexcept {
+    problem_.clear_rows();
+    problem_.hessian = coordinates.hessian(scene.metric());
+    problem_.gradient = coordinates.gradient(scene.metric(), target_);
+    const Scalar margin = is_certified ? scene.margin() : Scalar(0);
+    for (const Active& active : constraints_) {
+      const Row row = row_at(scene, active.constraint, pose);
+      problem_.add_row(coordinates.row(row.gradient()), margin - row.gap);
+    }
+    if constexpr (options.local_solution == LocalSolution::inside_box) {
+      const Vector6<Scalar> last = coordinates.of(start_), goal = coordinates.of(target_);
+      for (int k = 0; k < 6; ++k) {
+        const Vector6<Scalar> axis = Vector6<Scalar>::Unit(k);
+        problem_.add_row(axis, std::min(last[k], goal[k]));
+        problem_.add_row(-axis, -std::max(last[k], goal[k]));
+      }
+    }
+  }
+
+  /// Whether a solution may be chosen: its contacts lie on the features that they are between, and in the box of eq. 5 where that selects.
+  bool is_admissible(const Scene& scene, const Pose<Scalar>& pose) const noexcept {
+    constexpr Scalar tolerance = Scalar(1e-9);
+    for (const Active& active : constraints_) {
+      if (active.constraint.kind == FeaturePair::vertex_face) continue;
+      if (row_at(scene, active.constraint, pose).room < -tolerance) return false;
+    }
+    if constexpr (options.local_solution == LocalSolution::selected_by_box) {
+      const Coordinates coordinates(start_);
+      const Vector6<Scalar> reached = coordinates.of(pose), goal = coordinates.of(target_);
+      for (int k = 0; k < 6; ++k) {
+        // Coordinates that meet to rounding, as both angles of a tool that does not turn, are no reason to refuse.
+        const Scalar slack = box_slack;
+        if (reached[k] < std::min(Scalar(0), goal[k]) - slack || reached[k] > std::max(Scalar(0), goal[k]) + slack) return false;
+      }
+    }
+    return true;
+  }
+
+  /// Moves to a pose on the way to a solution. The regions that hold the tool there are the first contacts of the next tick.
+  void arrive(const Pose<Scalar>& pose, const Solution& solution) noexcept {
+    pose_ = pose;
+    active_ = solution.active;
+    for (int i = regions_.size() - 1; i >= 0; --i) {
+      if (std::any_of(active_.begin(), active_.end(), [i](const Active& active) { return active.region == i; })) continue;
+      regions_.swap_remove(i);
+      for (Active& active : active_) {
+        if (active.region == regions_.size()) active.region = i;
+      }
+    }
+  }
+
+  /// Optimises, certifies the motion to the best solution that can be reached, and takes what blocks it among the first contacts, until
+  /// the tool arrives.
+  bool follow_certified(const Scene& scene, Tick<MeshScalar>& tick) noexcept
+    requires is_certified
+  {
+    constexpr Scalar resting = Scalar(1e-11);
+    const int maximum_iterations = std::min(scene.settings().maximum_iterations, Tick<MeshScalar>::path_capacity);
+    Scalar limit = std::numeric_limits<Scalar>::infinity();
+    while (tick.iterations < maximum_iterations && tick.work < scene.settings().work_budget) {
+      ++tick.iterations;
+      optimise(scene, tick);
+      bool is_new = false, has_moved = false;
+      Scalar longest(0);
+      for (const Solution& solution : solutions_) {
+        const Twist<Scalar> whole = motion_between(pose_, solution.pose);
+        const Scalar length = scene.length_of(whole);
+        if (length <= resting) {
+          active_ = solution.active;
+          return true;
+        }
+        const Scalar share = std::min(Scalar(1), limit / length);
+        const MovingTool<Tool> moving = scene.moving(pose_, whole * share);
+        const auto result = Sweep<Tool>(planes_, scene.clearance())
+                                .certify(scene.object(), moving, {}, tick.work, tick.work + scene.settings().work_budget);
+        longest = std::max(longest, length * share);
+        if (result.is_exhausted) break;
+        if (!result.blockers.empty()) is_new = admit(scene, result) || is_new;
+        // Less than half of the way: perhaps the next solution can be reached.
+        if (is_new || (!result.blockers.empty() && result.time < Scalar(1) / 2)) continue;
+        const bool is_there = result.blockers.empty() && !(share < Scalar(1));
+        const Solution taken = solution;
+        arrive(is_there && taken.active.empty() ? target_ : moving.pose_at(result.time), taken);
+        tick.path.push_back(scene.tool_pose(pose_));
+        if (is_there && (taken.active.empty() || length < Scalar(scene.settings().step_tolerance))) return true;
+        has_moved = true;
+        limit = 2 * std::max(limit, scene.trust_radius());
+        break;
+      }
+      if (!has_moved && !is_new) limit = longest / 4;
+      if (limit < resting || solutions_.empty()) break;
+    }
+    return false;
+  }
+
+  /// Blockers near no region become regions; false when there were none.
+  bool admit(const Scene& scene, const SweepResult<Scalar>& result) noexcept {
+    const Pose<Scalar> frame = tool_frame(scene, pose_);
+    const LocalSearch<Tool, MeshScalar> search(scene.tool(), scene.object(), frame, Scalar(0));
+    bool is_new = false;
+    for (const auto& blocker : result.blockers) {
+      const bool is_known = std::any_of(regions_.begin(), regions_.end(), [&](const FirstContact& region) {
+        const auto ring = search.ring(region.triangle);
+        return std::find(ring.begin(), ring.end(), blocker.triangle) != ring.end();
+      });
+      if (is_known) continue;
+      if (!regions_.push_back({blocker.triangle, closest_at(scene, blocker.triangle, frame).features})) ++dropped_;
+      is_new = true;
+    }
+    return is_new;
+  }
+
+  static constexpr Scalar box_slack = Scalar(1e-9);
+
+  struct Nothing {
+    void clear() noexcept {}
+  };
+
+  Pose<Scalar> pose_;    // where the graphic tool is
+  Pose<Scalar> start_;   // where it was when the tick began
+  Pose<Scalar> target_;  // the haptic pose
+  Scalar reach_ = Scalar(0);  // bound on what any tool point moves within the tick, if no fold lets it jump [m]
+  FixedVector<FirstContact, options.maximum_regions> regions_;
+  std::array<RegionCandidates, region_capacity> found_;
+  FixedVector<Active, 128> constraints_;  // of the combination at hand
+  FixedVector<Solution, is_certified ? 4 : 1> solutions_;
+  ActiveList active_;
+  Solver solver_;
+  QpProblem<Scalar> problem_;
+  QpSolution<Scalar> qp_solution_;
+  [[no_unique_address]] std::conditional_t<is_certified, PlaneCache<Scalar>, Nothing> planes_;
+  int combinations_ = 0;
+  int dropped_ = 0;
+};
+
+/// The contact method of the paper, with its choices: `HapticRenderer<Tool, Solver, CandidateContacts<>>`.
+template <CandidateOptions options = CandidateOptions{}>
+struct CandidateContacts {
+  template <ConvexTool Tool, QpSolver Solver>
+  using Follower = CandidateContactsFollower<Tool, Solver, options>;
+};
+
+}  // namespace feeler

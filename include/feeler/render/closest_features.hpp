@@ -1,0 +1,266 @@
+// The default way of modelling contact: planes between closest features, linearised again until they hold.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <limits>
+#include <span>
+
+#include "feeler/contact/contact_patch.hpp"
+#include "feeler/contact/working_set.hpp"
+#include "feeler/core/status.hpp"
+#include "feeler/proximity/sweep.hpp"
+#include "feeler/render/contact_method.hpp"
+#include "feeler/render/rendered_scene.hpp"
+#include "feeler/render/step_problem.hpp"
+#include "feeler/render/tick.hpp"
+
+namespace feeler {
+
+/// Follows the haptic pose with a working set of triangles and a certificate.
+///
+/// Each iteration linearises the rows of the working set, solves for a step, linearises again where it ends, and then certifies the whole
+/// motion triangle by triangle. What blocks it joins the working set, and the pose advances as far as the motion is certified.
+template <ConvexTool ToolType, QpSolver Solver>
+class ClosestFeaturesFollower {
+ public:
+  using Scene = RenderedScene<ToolType>;
+  using Scalar = typename Scene::Scalar;
+  using MeshScalar = typename Scene::MeshScalar;
+  using Tool = typename Scene::Tool;
+
+  const Pose<Scalar>& pose() const noexcept { return pose_; }
+
+  void reset(const Scene& scene, const Pose<Scalar>& pose) noexcept {
+    pose_ = pose;
+    working_set_.clear();
+    planes_.clear();
+    goes_on_ = false;
+    reset_limits(scene);
+  }
+
+  Status follow(const Scene& scene, const Pose<Scalar>& target, Tick<MeshScalar>& tick) noexcept {
+    target_ = target;
+    working_set_.age(longest_idle, 4 * scene.margin(), 4 * scene.trust_radius(), goes_on_);
+    if (!goes_on_) reset_limits(scene);
+    goes_on_ = !advance(scene, tick);
+    return goes_on_ ? Status::unconverged : Status::converged;
+  }
+
+  /// The active rows of the last optimisation.
+  void report(const Scene& scene, Tick<MeshScalar>& tick) noexcept {
+    const Scalar unit = Scalar(scene.settings().stiffness.translational.maxCoeff());
+    for (const auto& active : problem_.solution().active) {
+      if (active.row >= problem_.row_count()) continue;
+      const auto& row = problem_.row(active.row);
+      const int pair = working_set_.find(row.triangle);
+      if (pair >= 0) working_set_[pair].idle_ticks = 0;
+      ActiveContact<MeshScalar> contact;
+      contact.triangle = row.triangle;
+      contact.point_world = (pose_.translation + row.arm).template cast<MeshScalar>();
+      contact.normal_world = row.normal.template cast<MeshScalar>();
+      contact.gap = MeshScalar(problem_.gap_after(active.row));
+      contact.force = MeshScalar(active.multiplier * unit);
+      tick.contacts.push_back(contact);
+    }
+  }
+
+ private:
+  using Pair = WorkingPair<Scalar>;
+
+  static constexpr int longest_idle = 8;
+
+  /// A step proposed to the certificate.
+  struct Proposal {
+    Twist<Scalar> motion;     // from the certified pose
+    bool is_settled = false;   // another linearisation would not change it
+    bool is_capped = false;    // the trust region cut it
+    bool is_free = false;      // no contact holds the tool
+    Scalar restoration = 0;   // energy that it may cost to win the margin back [m²]
+  };
+
+  void reset_limits(const Scene& scene) noexcept {
+    trust_ = scene.trust_radius();
+    flight_ = std::numeric_limits<Scalar>::infinity();
+  }
+
+  /// True when it arrived at a local minimum.
+  bool advance(const Scene& scene, Tick<MeshScalar>& tick) noexcept {
+    constexpr Scalar resting = Scalar(1e-11);
+    const int maximum_iterations = std::min(scene.settings().maximum_iterations, Tick<MeshScalar>::path_capacity);
+    for (tick.iterations = 0; tick.iterations < maximum_iterations;) {
+      ++tick.iterations;
+      const Proposal proposal = propose(scene, tick);
+      const Scalar length = scene.length_of(proposal.motion);
+      if (length <= resting) return proposal.is_settled && !proposal.is_capped;
+      const MovingTool<Tool> moving = scene.moving(pose_, proposal.motion);
+      if (!descends(scene, moving.pose_at(Scalar(1)), proposal.restoration)) {
+        trust_ = std::min(trust_, length) / 4;
+        if (trust_ < resting) break;
+        continue;
+      }
+      const auto result = certify(scene, moving, tick);
+      if (result.is_exhausted) {
+        (problem_.row_count() > 0 ? trust_ : flight_) = length / 8;
+      } else {
+        const bool is_done = result.blockers.empty() && proposal.is_settled && !proposal.is_capped;
+        pose_ = is_done && proposal.is_free ? target_ : moving.pose_at(result.time);
+        if (result.time > Scalar(0)) tick.path.push_back(scene.tool_pose(pose_));
+        if (is_done) return true;
+        if (result.blockers.empty()) {
+          trust_ = std::min(scene.trust_radius(), 2 * trust_);
+          flight_ *= 2;
+        } else if (!admit(scene, result)) {
+          trust_ = length * std::max(result.time, Scalar(1) / 4);
+        }
+      }
+      if (tick.work >= scene.settings().work_budget || trust_ < resting) break;
+    }
+    trust_ = std::max(trust_, Scalar(1e-7));
+    return false;
+  }
+
+  /// Whether a pose is nearer to the target than the certified one, but for what it costs to win the margin back.
+  bool descends(const Scene& scene, const Pose<Scalar>& pose, Scalar restoration) const noexcept {
+    using std::sqrt;
+    const Scalar before = scene.metric().energy(motion_between(target_, pose_));
+    const Scalar after = scene.metric().energy(motion_between(target_, pose));
+    return after <= before + 2 * restoration + scene.margin() * (sqrt(2 * before) + scene.margin());
+  }
+
+  /// Solves for the motion from the certified pose, linearising again where the first step ends.
+  Proposal propose(const Scene& scene, Tick<MeshScalar>& tick) noexcept {
+    constexpr int maximum_rounds = 4;
+    Proposal proposal;
+    Pose<Scalar> pose = pose_;
+    bool rests_on_assumption = false;
+    Scalar previous(0);
+    for (int round = 0; round < maximum_rounds; ++round) {
+      linearise(scene, pose, round == 0, !rests_on_assumption, tick);
+      const Twist<Scalar> e = motion_between(target_, pose);
+      const Vector6<Scalar> step = proposal.is_capped ? problem_.restore(scene.metric(), scene.margin())
+                                                      : problem_.solve(scene.metric(), e, scene.margin());
+      if (round == 0) proposal.restoration = problem_.cost_of_restoration();
+      note_tight_pairs();
+      pose = moved(pose, Twist<Scalar>::from_vector(step));
+      proposal.motion = motion_between(pose_, pose);
+      const Scalar last = scene.length_of(Twist<Scalar>::from_vector(step));
+      if (!proposal.is_capped) proposal.is_free = problem_.is_free();
+      const Scalar length = scene.length_of(proposal.motion);
+      const Scalar limit = problem_.row_count() > 0 ? trust_ : flight_;
+      if (length > limit && !proposal.is_capped) {
+        proposal.is_capped = true;
+        proposal.motion = proposal.motion * (limit / length);
+        pose = moved(pose_, proposal.motion);
+        if (proposal.is_free) return proposal;
+        continue;
+      }
+      rests_on_assumption = problem_.rests_on_assumption();
+      // A short step is the last one where steps shrink fast, or where it is very short.
+      const Scalar tolerance = Scalar(scene.settings().step_tolerance);
+      const bool is_short = last < tolerance && (last < previous / 10 || last < tolerance / 50);
+      previous = last;
+      proposal.is_settled = (is_short && !rests_on_assumption && problem_.keeps_features()) || proposal.is_free;
+      if (proposal.is_settled || proposal.is_capped) return proposal;
+    }
+    return proposal;
+  }
+
+  /// Rows of the working set at a pose; at the certified pose also the planes that the certificate starts from.
+  void linearise(const Scene& scene, const Pose<Scalar>& pose, bool is_certified, bool assumes_valleys,
+                 Tick<MeshScalar>& tick) noexcept {
+    problem_.clear();
+    const Matrix3<Scalar> axes = pose.rotation.toRotationMatrix();
+    const Scalar band = scene.trust_radius() / 4;
+    ContactPatch<Tool, MeshScalar> patch(scene.tool(), scene.object(), axes, scene.reference(), band, assumes_valleys);
+    PatchRows<Scalar> rows;
+    for (int i = 0; i < working_set_.size(); ++i) {
+      Pair& pair = working_set_[i];
+      const Matrix3<Scalar> corners = scene.in_tool(pair.corners_world, pose, axes);
+      const auto closest = closest_points(scene, corners, axes, pair, is_certified);
+      ++tick.work;
+      pair.features = closest.features;
+      if (is_certified) {
+        pair.normal = axes * closest.normal;
+        pair.slack = closest.distance;
+      }
+      pair.has_rows = patch.find(pair.triangle, corners, closest, pair.keeps_ghost, rows);
+      for (ContactRow<Scalar>& row : rows) {
+        row.triangle = pair.triangle;
+        problem_.add(row, pair.slack, pair.is_tight);
+      }
+    }
+    tick.rows = problem_.row_count();
+  }
+
+  /// Remembers which pairs had no room for the margin.
+  void note_tight_pairs() noexcept {
+    for (int i = 0; i < working_set_.size(); ++i) working_set_[i].is_tight = false;
+    for (int k = 0; k < problem_.row_count(); ++k) {
+      if (problem_.is_relaxed(k)) working_set_[working_set_.find(problem_.row(k).triangle)].is_tight = true;
+    }
+  }
+
+  /// Closest points of a pair. On the way the tool may overlap it; then the plane it had at the certified pose says which features meet.
+  static ClosestPoints<Scalar> closest_points(const Scene& scene, const Matrix3<Scalar>& corners,
+                                              const Matrix3<Scalar>& axes, const Pair& pair,
+                                              bool is_certified) noexcept {
+    ClosestPoints<Scalar> closest = gjk(scene.tool(), corners, pair.features, scene.clearance().touching);
+    if (!closest.is_touching) return closest;
+    if (is_certified || pair.slack < 2 * scene.clearance().touching) return separation_of_touching(scene.tool(), corners, closest);
+    closest.normal = axes.transpose() * pair.normal;
+    closest.distance = separation_along(scene.tool(), corners, closest.normal);
+    closest.features = {};
+    closest.tool_point = scene.tool().vertex(scene.tool().support(Vector3<Scalar>(-closest.normal)));
+    return closest;
+  }
+
+  SweepResult<Scalar> certify(const Scene& scene, const MovingTool<Tool>& moving, Tick<MeshScalar>& tick) noexcept {
+    std::array<KnownTriangle<Scalar>, std::size_t(WorkingSet<Scalar>::capacity)> known;
+    for (int i = 0; i < working_set_.size(); ++i) {
+      const Pair& pair = working_set_[i];
+      known[std::size_t(i)] = {pair.triangle,
+                               {pair.corners_world.colwise() - moving.origin(), pair.normal, pair.features, true}};
+    }
+    const int limit = tick.work + std::max(scene.settings().work_budget / 2, scene.settings().work_budget - tick.work);
+    return Sweep<Tool>(planes_, scene.clearance())
+        .certify(scene.object(), moving, std::span(known).first(std::size_t(working_set_.size())), tick.work, limit);
+  }
+
+  /// Takes what blocked into the working set; false when all of it was there already with rows of its own.
+  bool admit(const Scene& scene, const SweepResult<Scalar>& result) noexcept {
+    bool is_new = false;
+    for (const auto& blocker : result.blockers) {
+      int i = working_set_.find(blocker.triangle);
+      if (i < 0) {
+        working_set_.add(blocker.triangle, scene.object().corners(blocker.triangle).template cast<Scalar>());
+        is_new = true;
+        continue;
+      }
+      Pair& pair = working_set_[i];
+      pair.idle_ticks = 0;
+      if (!pair.has_rows) {
+        pair.keeps_ghost = true;
+        is_new = true;
+      }
+    }
+    return is_new;
+  }
+
+  Pose<Scalar> pose_;     // the certified pose
+  Pose<Scalar> target_;   // the haptic pose
+  bool goes_on_ = false;  // the last tick left motion for this one
+  Scalar trust_ = 0;      // longest motion proposed near the object
+  Scalar flight_ = 0;     // the same away from it, where only the work of the certificate limits it
+  WorkingSet<Scalar> working_set_;
+  PlaneCache<Scalar> planes_;
+  StepProblem<Solver> problem_;
+};
+
+/// The default contact method: constraint planes between the closest features of the tool and the triangles in its way.
+struct ClosestFeatures {
+  template <ConvexTool Tool, QpSolver Solver>
+  using Follower = ClosestFeaturesFollower<Tool, Solver>;
+};
+
+}  // namespace feeler

@@ -1,0 +1,97 @@
+// What a contact method is given: object, tool, metric and settings, all in the scalar that decides collisions.
+#pragma once
+
+#include <algorithm>
+#include <limits>
+#include <type_traits>
+
+#include "feeler/object/triangle_mesh.hpp"
+#include "feeler/proximity/motion.hpp"
+#include "feeler/proximity/passage.hpp"
+#include "feeler/render/settings.hpp"
+#include "feeler/tool/convex_tool.hpp"
+
+namespace feeler {
+
+namespace detail {
+/// The tool in the scalar that decides collisions.
+template <class Working, ConvexTool Tool>
+auto working_tool(const Tool& tool) {
+  if constexpr (std::is_same_v<typename Tool::Scalar, Working>) {
+    return tool;
+  } else {
+    return tool.template cast<Working>();
+  }
+}
+}  // namespace detail
+
+/// The constant part of a rendering. Poses that a contact method works on are those of the reference point: their translation is where it
+/// is in the world, not where the origin of the tool frame is.
+template <ConvexTool ToolType>
+class RenderedScene {
+ public:
+  using MeshScalar = typename ToolType::Scalar;
+  using Scalar = WorkingScalar<MeshScalar>;
+  using Tool = std::remove_cvref_t<decltype(detail::working_tool<Scalar>(std::declval<const ToolType&>()))>;
+
+  RenderedScene(const TriangleMesh<MeshScalar>& object, const ToolType& tool, const Settings<MeshScalar>& settings)
+      : object_(&object),
+        tool_(detail::working_tool<Scalar>(tool)),
+        settings_(settings),
+        reference_(settings.reference_point.template cast<Scalar>()),
+        radius_(radius_about(tool_, reference_)),
+        metric_((settings.metric ? *settings.metric : Metric<MeshScalar>::proportional_to(settings.stiffness))
+                    .template cast<Scalar>()) {
+    const Scalar size = std::max(radius_, Scalar(object.bounds().diagonal().norm()));
+    const Scalar rounding = 256 * std::numeric_limits<Scalar>::epsilon() * size;
+    clearance_.kept = margin() / 10;
+    clearance_.allowance = std::max(clearance_.allowance, rounding);
+    clearance_.touching = touching_distance(radius_);
+    clearance_.probe = trust_radius() / 4;
+  }
+
+  const TriangleMesh<MeshScalar>& object() const noexcept { return *object_; }
+  const Tool& tool() const noexcept { return tool_; }
+  const Settings<MeshScalar>& settings() const noexcept { return settings_; }
+  /// In the tool frame [m].
+  const Vector3<Scalar>& reference() const noexcept { return reference_; }
+  /// Largest distance of a tool point from the reference point [m].
+  Scalar radius() const noexcept { return radius_; }
+  const Metric<Scalar>& metric() const noexcept { return metric_; }
+  const Clearance<Scalar>& clearance() const noexcept { return clearance_; }
+  Scalar margin() const noexcept { return Scalar(settings_.margin); }
+  Scalar trust_radius() const noexcept { return Scalar(settings_.trust_radius); }
+
+  /// Pose of the reference point, from the pose of the tool frame.
+  Pose<Scalar> reference_pose(const Pose<MeshScalar>& tool_pose) const noexcept {
+    const Pose<Scalar> pose = tool_pose.template cast<Scalar>().normalized();
+    return {pose * reference_, pose.rotation};
+  }
+  Pose<MeshScalar> tool_pose(const Pose<Scalar>& pose) const noexcept {
+    const Pose<Scalar> tool{pose.translation - pose.rotation * reference_, pose.rotation};
+    return tool.template cast<MeshScalar>();
+  }
+  MovingTool<Tool> moving(const Pose<Scalar>& from, const Twist<Scalar>& motion) const noexcept {
+    return {tool_, reference_, radius_, from, motion};
+  }
+  /// Bound on the path of every tool point [m].
+  Scalar length_of(const Twist<Scalar>& motion) const noexcept {
+    return motion.linear.norm() + radius_ * motion.angular.norm();
+  }
+  /// The corners of a triangle in the tool frame of a pose with the axes given [m].
+  Matrix3<Scalar> in_tool(const Matrix3<Scalar>& corners_world, const Pose<Scalar>& pose,
+                          const Matrix3<Scalar>& axes) const noexcept {
+    return (axes.transpose() * (corners_world.colwise() - pose.translation)).colwise() + reference_;
+  }
+
+ private:
+  const TriangleMesh<MeshScalar>* object_;
+  Tool tool_;
+  Settings<MeshScalar> settings_;
+  Vector3<Scalar> reference_;
+  Scalar radius_;
+  Metric<Scalar> metric_;
+  Clearance<Scalar> clearance_;
+};
+
+}  // namespace feeler
