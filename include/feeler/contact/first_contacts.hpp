@@ -21,14 +21,17 @@ namespace feeler {
 ///
 /// `features` lists pairs of tool vertex and triangle corner; the tool's feature is a vertex, edge or face by the number of different
 /// vertices in it, the triangle's likewise.
+template <class Scalar>
 struct FirstContact {
   int triangle = -1;
+  Vector3<Scalar> normal_world = Vector3<Scalar>::Zero();  ///< from the triangle to the tool
   WitnessFeatures features;
 };
 
 /// Contact of one tool vertex with the inside of a triangle.
-inline FirstContact vertex_on_triangle(int tool_vertex, int triangle) noexcept {
-  FirstContact contact{triangle, {}};
+template <class Scalar>
+FirstContact<Scalar> vertex_on_triangle(int tool_vertex, int triangle, const Vector3<Scalar>& normal_world) noexcept {
+  FirstContact<Scalar> contact{triangle, normal_world, {}};
   contact.features.size = 3;
   contact.features.tool_vertices.fill(short(tool_vertex));
   contact.features.corners = {0, 1, 2};
@@ -41,11 +44,12 @@ inline FirstContact vertex_on_triangle(int tool_vertex, int triangle) noexcept {
 /// @param from, to  poses of the tool frame
 /// @return a contact with `triangle` −1 if no vertex crosses any
 template <ConvexTool Tool, class MeshScalar>
-FirstContact first_vertex_hit(const Tool& tool, const TriangleMesh<MeshScalar>& mesh, const Pose<typename Tool::Scalar>& from,
-                              const Pose<typename Tool::Scalar>& to) noexcept {
+FirstContact<typename Tool::Scalar> first_vertex_hit(const Tool& tool, const TriangleMesh<MeshScalar>& mesh,
+                                                     const Pose<typename Tool::Scalar>& from,
+                                                     const Pose<typename Tool::Scalar>& to) noexcept {
   using Scalar = typename Tool::Scalar;
   using Vector = Vector3<Scalar>;
-  FirstContact first;
+  FirstContact<Scalar> first;
   Scalar earliest(1);
   for (int i = 0; i < tool.vertex_count(); ++i) {
     const Vector start = from * tool.vertex(i);
@@ -66,7 +70,7 @@ FirstContact first_vertex_hit(const Tool& tool, const TriangleMesh<MeshScalar>& 
       }
       if (time < earliest || first.triangle < 0) {
         earliest = time;
-        first = vertex_on_triangle(i, triangle);
+        first = vertex_on_triangle<Scalar>(i, triangle, Vector(speed > Scalar(0) ? -normal : normal));
       }
       return true;
     });

@@ -45,7 +45,7 @@ struct RegionCandidates {
 /// On the object the neighbours of a feature are those of the triangles that share a corner with its triangle; on the tool those that share
 /// a face with it. Of them it makes
 /// - for each plane the candidate that keeps every neighbouring tool vertex above it (type 1, eq. 6), together with the planes that meet it
-///   in a valley or a pit (types 3, 4 and 5, eq. 8);
+///   in valleys and pits and that the tool is above now (types 3, 4 and 5, eq. 8);
 /// - for each ridge and each tool edge over it the candidate of the dynamic constraint plane (type 2, eq. 7);
 /// - for each tip and each tool face over it the candidate of the face's plane.
 ///
@@ -81,7 +81,7 @@ class LocalSearch {
     return result;
   }
 
-  void find(const FirstContact& contact, RegionCandidates& region) noexcept {
+  void find(const FirstContact<Scalar>& contact, RegionCandidates& region) noexcept {
     region.candidates.clear();
     region.dropped = 0;
     ring_ = ring(contact.triangle);
@@ -113,16 +113,8 @@ class LocalSearch {
   }
 
   /// Meshes may be open, and then the tool may be behind them.
-  bool is_behind(const FirstContact& contact) const noexcept {
-    const Vector normal = mesh_.normal(contact.triangle).template cast<Scalar>();
-    const Vector point = corner(contact.triangle, 0);
-    Scalar highest(0), lowest(0);
-    for (int i = 0; i < tool_.vertex_count(); ++i) {
-      const Scalar height = normal.dot(tool_vertex(i) - point);
-      highest = std::max(highest, height);
-      lowest = std::min(lowest, height);
-    }
-    return -lowest > highest;
+  bool is_behind(const FirstContact<Scalar>& contact) const noexcept {
+    return mesh_.normal(contact.triangle).template cast<Scalar>().dot(contact.normal_world) < Scalar(0);
   }
 
   Convexity convexity(Convexity given) const noexcept {
@@ -134,7 +126,7 @@ class LocalSearch {
     return convexity(mesh_.topology().edge_convexity(triangle, k));
   }
 
-  void gather_tool_neighbours(const FirstContact& contact) noexcept {
+  void gather_tool_neighbours(const FirstContact<Scalar>& contact) noexcept {
     std::array<bool, 256> is_own{};
     is_near_.fill(false);
     for (int i = 0; i < contact.features.size; ++i) is_own[index(contact.features.tool_vertices[index(i)])] = true;
@@ -172,18 +164,46 @@ class LocalSearch {
     }
   }
 
-  /// Whether two planes meet in a valley, or at a pit.
-  bool meet_concave(const Plane& a, const Plane& b) const noexcept {
+  /// Whether two planes meet in a valley or a pit, or on a ridge or a tip.
+  bool meet(const Plane& a, const Plane& b, Convexity shape) const noexcept {
     for (int i = 0; i < ring_.size(); ++i) {
       if ((a.members >> i & 1u) == 0) continue;
       for (int k = 0; k < 3; ++k) {
         const int other = mesh_.topology().neighbour(ring_[i], k);
-        if (other >= 0 && edge_convexity(ring_[i], k) == Convexity::concave && is_member(b, other)) return true;
+        if (other >= 0 && edge_convexity(ring_[i], k) == shape && is_member(b, other)) return true;
         const int vertex = mesh_.triangle(ring_[i])[index(k)];
-        if (convexity(mesh_.topology().vertex_convexity(vertex)) == Convexity::concave && has_vertex(b, vertex)) return true;
+        if (convexity(mesh_.topology().vertex_convexity(vertex)) == shape && has_vertex(b, vertex)) return true;
       }
     }
     return false;
+  }
+
+  bool is_above(const Plane& plane) const noexcept {
+    for (int v = 0; v < tool_.vertex_count(); ++v) {
+      if (is_near_[index(v)] && plane.normal.dot(tool_vertex(v) - plane.point) < -reach_) return false;
+    }
+    return true;
+  }
+
+  /// A plane and, one after the other, those that join the set in valleys and meet none of it on a ridge.
+  std::uint64_t convex_piece(int seed) const noexcept {
+    std::uint64_t set = std::uint64_t(1) << seed;
+    for (bool grows = true; grows;) {
+      grows = false;
+      for (int j = 0; j < planes_.size(); ++j) {
+        if ((set >> j & 1u) != 0 || !is_above(planes_[j])) continue;
+        bool joins = false, is_apart = false;
+        for (int i = 0; i < planes_.size(); ++i) {
+          if ((set >> i & 1u) == 0) continue;
+          joins = joins || meet(planes_[i], planes_[j], Convexity::concave);
+          is_apart = is_apart || meet(planes_[i], planes_[j], Convexity::convex);
+        }
+        if (!joins || is_apart) continue;
+        set |= std::uint64_t(1) << j;
+        grows = true;
+      }
+    }
+    return set;
   }
   bool is_member(const Plane& plane, int triangle) const noexcept {
     for (int i = 0; i < ring_.size(); ++i) {
@@ -203,10 +223,7 @@ class LocalSearch {
   void add_planes(RegionCandidates& region) noexcept {
     FixedVector<std::uint64_t, plane_capacity> known;  // the sets of planes so far
     for (int i = 0; i < planes_.size(); ++i) {
-      std::uint64_t set = std::uint64_t(1) << i;
-      for (int j = 0; j < planes_.size(); ++j) {
-        if (j != i && meet_concave(planes_[i], planes_[j])) set |= std::uint64_t(1) << j;
-      }
+      const std::uint64_t set = convex_piece(i);
       if (std::find(known.begin(), known.end(), set) != known.end()) continue;
       known.push_back(set);
       Candidate candidate;

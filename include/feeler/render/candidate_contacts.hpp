@@ -12,6 +12,7 @@
 #include "feeler/contact/local_search.hpp"
 #include "feeler/core/fixed_vector.hpp"
 #include "feeler/core/status.hpp"
+#include "feeler/proximity/separation.hpp"
 #include "feeler/proximity/sweep.hpp"
 #include "feeler/render/contact_method.hpp"
 #include "feeler/render/rendered_scene.hpp"
@@ -83,12 +84,18 @@ class CandidateContactsFollower {
     tick.rows = 0;
     track_regions(scene, tick);
     if constexpr (is_certified) {
-      return follow_certified(scene, tick) ? Status::converged : Status::unconverged;
+      const bool has_arrived = follow_certified(scene, tick);
+      keep_active_regions();
+      return has_arrived ? Status::converged : Status::unconverged;
     } else {
       ++tick.iterations;
       find_first_contacts(scene);
       optimise(scene, tick);
-      if (!solutions_.empty()) arrive(solutions_[0].pose, solutions_[0]);  // else there is nothing to choose: stay
+      if (!solutions_.empty()) {  // else there is nothing to choose: stay
+        pose_ = solutions_[0].pose;
+        active_ = solutions_[0].active;
+        keep_active_regions();
+      }
       tick.path.push_back(scene.tool_pose(pose_));
       return Status::unverified;
     }
@@ -114,6 +121,7 @@ class CandidateContactsFollower {
   static constexpr std::size_t region_capacity = std::size_t(options.maximum_regions);
   using Coordinates = StepCoordinates<Scalar, options.increments>;
   using Row = ContactRow<Scalar>;
+  using Contact = FirstContact<Scalar>;
 
   struct Active {
     CandidateConstraint constraint;
@@ -127,6 +135,17 @@ class CandidateContactsFollower {
     Pose<Scalar> pose;
     Scalar energy = Scalar(0);  // [m²]
     ActiveList active;
+    bool is_capped = false;  // short of the optimum by the trust region
+  };
+
+  /// How far the certificate lets the tool go towards a solution.
+  struct Advance {
+    const Solution* solution = nullptr;
+    Pose<Scalar> pose;
+    Scalar energy = Scalar(0);
+    Scalar length = Scalar(0);  // of the way to the solution [m]
+    Scalar moved = Scalar(0);   // of it certified [m]
+    bool is_there = false;
   };
 
   static std::size_t index(int i) noexcept { return std::size_t(i); }
@@ -142,15 +161,16 @@ class CandidateContactsFollower {
   void track_regions(const Scene& scene, Tick<MeshScalar>& tick) noexcept {
     const Pose<Scalar> frame = tool_frame(scene, pose_);
     const LocalSearch<Tool, MeshScalar> search(scene.tool(), scene.object(), frame, Scalar(0));
-    for (FirstContact& region : regions_) {
-      FirstContact nearest = region;
+    for (Contact& region : regions_) {
+      Contact nearest = region;
       Scalar least = std::numeric_limits<Scalar>::infinity();
       for (const int triangle : search.ring(region.triangle)) {
         ++tick.work;
-        const auto closest = closest_at(scene, triangle, frame);
-        if (closest.is_touching || !(closest.distance < least)) continue;
-        least = closest.distance;
-        nearest = {triangle, closest.features};
+        Contact contact;
+        const Scalar separation = separation_from(scene, triangle, frame, contact);
+        if (!(separation < least)) continue;
+        least = separation;
+        nearest = contact;
       }
       region = nearest;
     }
@@ -163,17 +183,30 @@ class CandidateContactsFollower {
     }
   }
 
-  static ClosestPoints<Scalar> closest_at(const Scene& scene, int triangle, const Pose<Scalar>& frame) noexcept {
+  /// Separation of a triangle [m], and the contact it makes: between the tool vertices that are lowest over it and the triangle.
+  static Scalar separation_from(const Scene& scene, int triangle, const Pose<Scalar>& frame, Contact& contact) noexcept {
     const Matrix3<Scalar> corners = scene.object().corners(triangle).template cast<Scalar>();
     const Matrix3<Scalar> in_tool = frame.rotation.toRotationMatrix().transpose() * (corners.colwise() - frame.translation);
-    return gjk(scene.tool(), in_tool, {}, scene.clearance().touching);
+    auto closest = gjk(scene.tool(), in_tool, {}, scene.clearance().touching);
+    if (closest.is_touching) closest = separation_of_touching(scene.tool(), in_tool, closest);
+    const Vector3<Scalar>& normal = closest.normal;
+    const Scalar lowest = normal.dot(scene.tool().vertex(scene.tool().support(Vector3<Scalar>(-normal))));
+    contact = {triangle, frame.rotation * normal, {}};
+    auto& features = contact.features;
+    for (int i = 0; i < scene.tool().vertex_count() && features.size < 3; ++i) {
+      if (normal.dot(scene.tool().vertex(i)) > lowest + 2 * scene.margin()) continue;
+      features.tool_vertices[index(features.size)] = short(i);
+      features.corners[index(features.size)] = short(features.size);
+      ++features.size;
+    }
+    return closest.distance;
   }
 
   /// Section IV, step 2.1: tracked vertices out of free space; in contact, regions overlapped at the haptic pose that are not yet followed.
   void find_first_contacts(const Scene& scene) noexcept {
     const Pose<Scalar> from = tool_frame(scene, pose_), to = tool_frame(scene, target_);
     if (regions_.empty()) {
-      const FirstContact hit = first_vertex_hit(scene.tool(), scene.object(), from, to);
+      const Contact hit = first_vertex_hit(scene.tool(), scene.object(), from, to);
       if (hit.triangle >= 0) regions_.push_back(hit);
       if (regions_.empty()) return;
     }
@@ -181,21 +214,21 @@ class CandidateContactsFollower {
     if (!overlapped.is_complete) ++dropped_;
     auto& left = overlapped.triangles;
     const LocalSearch<Tool, MeshScalar> search(scene.tool(), scene.object(), from, Scalar(0));
-    for (const FirstContact& region : regions_) {
+    for (const Contact& region : regions_) {
       const auto ring = search.ring(region.triangle);
       for (int i = left.size() - 1; i >= 0; --i) {
         if (std::find(ring.begin(), ring.end(), left[i]) != ring.end()) left.swap_remove(i);
       }
     }
     while (!left.empty()) {
-      FirstContact first;
+      Contact first;
       Scalar least = std::numeric_limits<Scalar>::infinity();
       for (const int triangle : remove_connected(scene, left, left[0])) {
-        const auto closest = closest_at(scene, triangle, from);
-        const Scalar distance = closest.is_touching ? Scalar(0) : closest.distance;
-        if (!(distance < least)) continue;
-        least = distance;
-        first = {triangle, closest.features};
+        Contact contact;
+        const Scalar separation = separation_from(scene, triangle, from, contact);
+        if (!(separation < least)) continue;
+        least = separation;
+        first = contact;
       }
       if (least < reach_ && !regions_.push_back(first)) ++dropped_;
     }
@@ -230,54 +263,76 @@ class CandidateContactsFollower {
       dropped_ += found_[index(i)].dropped;
     }
     solutions_.clear();
-    std::array<int, region_capacity> choice{};
-    int tried = 0;
-    for (bool is_last = false; !is_last;) {
-      if (++tried <= options.maximum_combinations) {
-        try_combination(scene, choice, tick);
-      } else {
-        ++dropped_;
-        if (tried > 1024) break;  // more are not even counted
-      }
-      is_last = true;
-      for (int i = 0; i < regions_.size(); ++i) {
-        if (++choice[index(i)] < found_[index(i)].candidates.size()) {
-          is_last = false;
-          break;
-        }
-        choice[index(i)] = 0;
-      }
-    }
-    combinations_ += std::min(tried, options.maximum_combinations);
+    try_combinations(scene, reach_, tick);
+    // A tool that got inside is let out wherever that is nearest.
+    if (!is_certified && solutions_.empty()) try_combinations(scene, std::numeric_limits<Scalar>::infinity(), tick);
   }
 
-  void try_combination(const Scene& scene, const std::array<int, region_capacity>& choice, Tick<MeshScalar>& tick) noexcept {
+  /// @param reach  pieces of the free space farther away than that are left out [m]
+  void try_combinations(const Scene& scene, Scalar reach, Tick<MeshScalar>& tick) noexcept {
+    constexpr int most_counted = 1024;
+    std::array<int, region_capacity> choice{};
+    for (int tried = 0; tried < most_counted; ++tried) {
+      if (tried < options.maximum_combinations) {
+        ++combinations_;
+        try_combination(scene, choice, reach, tick);
+      } else {
+        ++dropped_;
+      }
+      int i = 0;
+      while (i < regions_.size() && ++choice[index(i)] >= found_[index(i)].candidates.size()) choice[index(i++)] = 0;
+      if (i == regions_.size()) return;
+    }
+  }
+
+  void try_combination(const Scene& scene, const std::array<int, region_capacity>& choice, Scalar reach,
+                       Tick<MeshScalar>& tick) noexcept {
     constraints_.clear();
     for (int i = 0; i < regions_.size(); ++i) {
       if (found_[index(i)].candidates.empty()) continue;
       for (const CandidateConstraint& constraint : found_[index(i)].candidates[choice[index(i)]].constraints) {
         if (!constraints_.push_back({constraint, Scalar(0), i})) ++dropped_;
         // A piece of the free space that the tool cannot enter within a tick is not near.
-        if (row_at(scene, constraint, pose_).gap < -reach_) return;
+        if (row_at(scene, constraint, pose_).gap < -reach) return;
       }
     }
     Pose<Scalar> pose = pose_;
+    ActiveList active;
+    bool is_capped = false;
     for (int round = 0; round < options.linearisations; ++round) {
       const Coordinates coordinates(pose);
       load(scene, coordinates, pose);
+      if (is_capped) problem_.gradient.setZero();  // the smallest step that meets the rows
       tick.rows = std::max(tick.rows, problem_.row_count);
-      if (solver_.solve(problem_, qp_solution_) != QpStatus::optimal) return;
+      QpStatus status = solver_.solve(problem_, qp_solution_);
+      if (is_certified && status == QpStatus::infeasible) {
+        relax(scene, pose);
+        status = solver_.solve(problem_, qp_solution_);
+      }
+      if (status != QpStatus::optimal) return;
+      if (!is_capped) note_active(active);
       pose = coordinates.pose_at(qp_solution_.step);
       if (scene.length_of(Twist<Scalar>::from_vector(qp_solution_.step)) < Scalar(scene.settings().step_tolerance) / 50) break;
+      if constexpr (is_certified) {
+        const Twist<Scalar> motion = motion_between(pose_, pose);
+        const Scalar length = scene.length_of(motion);
+        if (is_capped || !(length > trust_)) continue;
+        is_capped = true;
+        pose = moved(pose_, motion * (trust_ / length));
+      }
     }
     if (!is_admissible(scene, pose)) return;
-    Solution solution{pose, scene.metric().energy(motion_between(target_, pose)), {}};
-    for (const auto& active : qp_solution_.active) {
-      if (active.row >= constraints_.size()) continue;  // a side of the box
-      solution.active.push_back(constraints_[active.row]);
-      solution.active[solution.active.size() - 1].multiplier = active.multiplier;
+    keep({pose, scene.metric().energy(motion_between(target_, pose)), active, is_capped});
+  }
+
+  /// The constraints that held the tool in the last optimisation, without the sides of the box.
+  void note_active(ActiveList& active) const noexcept {
+    active.clear();
+    for (const auto& row : qp_solution_.active) {
+      if (row.row >= constraints_.size()) continue;
+      active.push_back(constraints_[row.row]);
+      active[active.size() - 1].multiplier = row.multiplier;
     }
-    keep(solution);
   }
 
   /// Keeps the best solutions, the nearest to the haptic pose first.
@@ -309,11 +364,22 @@ class CandidateContactsFollower {
     }
   }
 
+  /// Where there is no room for the margin: no closer than at the certified pose.
+  void relax(const Scene& scene, const Pose<Scalar>& pose) noexcept {
+    for (int i = 0; i < constraints_.size() && i < problem_.row_count; ++i) {
+      const CandidateConstraint& constraint = constraints_[i].constraint;
+      const Scalar certified = std::max(row_at(scene, constraint, pose_).gap, Scalar(0));
+      const Scalar wanted = std::min(scene.margin(), certified) - row_at(scene, constraint, pose).gap;
+      problem_.bounds[index(i)] = std::min(problem_.bounds[index(i)], wanted);
+    }
+  }
+
   /// Whether a solution may be chosen: its contacts lie on the features that they are between, and in the box of eq. 5 where that selects.
   bool is_admissible(const Scene& scene, const Pose<Scalar>& pose) const noexcept {
     constexpr Scalar tolerance = Scalar(1e-9);
     for (const Active& active : constraints_) {
-      if (active.constraint.kind == FeaturePair::vertex_face) continue;
+      // What the certificate lets through needs no such proof.
+      if (is_certified || active.constraint.kind == FeaturePair::vertex_face) continue;
       if (row_at(scene, active.constraint, pose).room < -tolerance) return false;
     }
     if constexpr (options.local_solution == LocalSolution::selected_by_box) {
@@ -328,10 +394,8 @@ class CandidateContactsFollower {
     return true;
   }
 
-  /// Moves to a pose on the way to a solution. The regions that hold the tool there are the first contacts of the next tick.
-  void arrive(const Pose<Scalar>& pose, const Solution& solution) noexcept {
-    pose_ = pose;
-    active_ = solution.active;
+  /// The regions that hold the tool are the first contacts of the next tick.
+  void keep_active_regions() noexcept {
     for (int i = regions_.size() - 1; i >= 0; --i) {
       if (std::any_of(active_.begin(), active_.end(), [i](const Active& active) { return active.region == i; })) continue;
       regions_.swap_remove(i);
@@ -348,39 +412,46 @@ class CandidateContactsFollower {
   {
     constexpr Scalar resting = Scalar(1e-11);
     const int maximum_iterations = std::min(scene.settings().maximum_iterations, Tick<MeshScalar>::path_capacity);
-    Scalar limit = std::numeric_limits<Scalar>::infinity();
+    trust_ = regions_.empty() ? std::numeric_limits<Scalar>::infinity() : scene.trust_radius();
     while (tick.iterations < maximum_iterations && tick.work < scene.settings().work_budget) {
       ++tick.iterations;
       optimise(scene, tick);
-      bool is_new = false, has_moved = false;
-      Scalar longest(0);
+      bool is_new = false;
+      Advance best;
       for (const Solution& solution : solutions_) {
-        const Twist<Scalar> whole = motion_between(pose_, solution.pose);
-        const Scalar length = scene.length_of(whole);
+        const Twist<Scalar> motion = motion_between(pose_, solution.pose);
+        const Scalar length = scene.length_of(motion);
         if (length <= resting) {
           active_ = solution.active;
           return true;
         }
-        const Scalar share = std::min(Scalar(1), limit / length);
-        const MovingTool<Tool> moving = scene.moving(pose_, whole * share);
+        const MovingTool<Tool> moving = scene.moving(pose_, motion);
         const auto result = Sweep<Tool>(planes_, scene.clearance())
                                 .certify(scene.object(), moving, {}, tick.work, tick.work + scene.settings().work_budget);
-        longest = std::max(longest, length * share);
-        if (result.is_exhausted) break;
         if (!result.blockers.empty()) is_new = admit(scene, result) || is_new;
-        // Less than half of the way: perhaps the next solution can be reached.
-        if (is_new || (!result.blockers.empty() && result.time < Scalar(1) / 2)) continue;
-        const bool is_there = result.blockers.empty() && !(share < Scalar(1));
-        const Solution taken = solution;
-        arrive(is_there && taken.active.empty() ? target_ : moving.pose_at(result.time), taken);
-        tick.path.push_back(scene.tool_pose(pose_));
-        if (is_there && (taken.active.empty() || length < Scalar(scene.settings().step_tolerance))) return true;
-        has_moved = true;
-        limit = 2 * std::max(limit, scene.trust_radius());
-        break;
+        const Pose<Scalar> reached = moving.pose_at(result.is_exhausted ? Scalar(0) : result.time);
+        const bool is_there = !result.is_exhausted && result.blockers.empty();
+        const Scalar energy = scene.metric().energy(motion_between(target_, reached));
+        if (best.solution == nullptr || is_there || energy < best.energy) {
+          best = {&solution, reached, energy, length, length * result.time, is_there};
+        }
+        if (is_there) break;
       }
-      if (!has_moved && !is_new) limit = longest / 4;
-      if (limit < resting || solutions_.empty()) break;
+      if (best.solution == nullptr) return false;
+      if (is_new && !best.is_there) {  // with the new regions there are better solutions
+        trust_ = scene.trust_radius();
+        continue;
+      }
+      // Creeping up to what blocks would only use up the clearance.
+      if (best.is_there || best.moved > best.length / 8) {
+        if (best.is_there) active_ = best.solution->active;
+        const bool is_whole = best.is_there && !best.solution->is_capped;
+        pose_ = is_whole && active_.empty() ? target_ : best.pose;
+        tick.path.push_back(scene.tool_pose(pose_));
+        if (is_whole && (active_.empty() || best.length < Scalar(scene.settings().step_tolerance))) return true;
+      }
+      trust_ = best.is_there ? std::min(2 * trust_, scene.trust_radius()) : std::min(trust_, best.length) / 4;
+      if (trust_ < resting) break;
     }
     return false;
   }
@@ -391,12 +462,14 @@ class CandidateContactsFollower {
     const LocalSearch<Tool, MeshScalar> search(scene.tool(), scene.object(), frame, Scalar(0));
     bool is_new = false;
     for (const auto& blocker : result.blockers) {
-      const bool is_known = std::any_of(regions_.begin(), regions_.end(), [&](const FirstContact& region) {
+      const bool is_known = std::any_of(regions_.begin(), regions_.end(), [&](const Contact& region) {
         const auto ring = search.ring(region.triangle);
         return std::find(ring.begin(), ring.end(), blocker.triangle) != ring.end();
       });
       if (is_known) continue;
-      if (!regions_.push_back({blocker.triangle, closest_at(scene, blocker.triangle, frame).features})) ++dropped_;
+      Contact contact;
+      separation_from(scene, blocker.triangle, frame, contact);
+      if (!regions_.push_back(contact)) ++dropped_;
       is_new = true;
     }
     return is_new;
@@ -411,8 +484,9 @@ class CandidateContactsFollower {
   Pose<Scalar> pose_;    // where the graphic tool is
   Pose<Scalar> start_;   // where it was when the tick began
   Pose<Scalar> target_;  // the haptic pose
+  Scalar trust_ = Scalar(0);  // longest motion proposed to the certificate [m]
   Scalar reach_ = Scalar(0);  // bound on what any tool point moves within the tick, if no fold lets it jump [m]
-  FixedVector<FirstContact, options.maximum_regions> regions_;
+  FixedVector<Contact, options.maximum_regions> regions_;
   std::array<RegionCandidates, region_capacity> found_;
   FixedVector<Active, 128> constraints_;  // of the combination at hand
   FixedVector<Solution, is_certified ? 4 : 1> solutions_;
