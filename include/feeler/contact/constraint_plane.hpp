@@ -64,11 +64,13 @@ ConstraintPlanes<Scalar> planes_around(const SurfaceFeatures<Scalar>& surface, c
 ///
 /// A tool that touches a ridge without crossing it lies outside of the wedge behind its faces, one that touches a valley inside of the wedge
 /// before them: so the directions from the point to all points of the tool have one sign of max n·d, or of min n·d. Their sum decides, so
-/// that rounding at the places of touching does not.
+/// that rounding at the places of touching does not. A tool that lies in the surface, as a segment can, is in front.
 /// @param feature        in whose closure the point lies
+/// @param rounding       sum of depths that still counts as in front [m]
 /// @param for_each_from  calls its argument with the vector to each vertex of the tool from the point [m, world axes]
 template <class Scalar, class ForEach>
-SurfaceSide side_of_tool(const SurfaceFeatures<Scalar>& surface, const Feature& feature, const ForEach& for_each_from) noexcept {
+SurfaceSide side_of_tool(const SurfaceFeatures<Scalar>& surface, const Feature& feature, Scalar rounding,
+                         const ForEach& for_each_from) noexcept {
   const auto& incidence = surface.incidence();
   // Where real ridges and valleys meet, either answer gives the same shape.
   const bool is_valley = feature.kind == FeatureKind::vertex
@@ -86,7 +88,7 @@ SurfaceSide side_of_tool(const SurfaceFeatures<Scalar>& surface, const Feature& 
     for (const int face : faces.subspan(1)) margin = is_valley ? std::min(margin, height(face)) : std::max(margin, height(face));
     sum += margin;
   });
-  return sum < Scalar(0) ? SurfaceSide::back : SurfaceSide::front;
+  return sum < -rounding ? SurfaceSide::back : SurfaceSide::front;
 }
 
 }  // namespace feeler

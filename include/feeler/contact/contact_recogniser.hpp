@@ -248,7 +248,7 @@ class ContactRecogniser {
   /// The side of the object's feature that the tool is on.
   SurfaceSide side_at(const Candidate& contact) const noexcept {
     const Vector point = mean_point(contact.witnesses);
-    return side_of_tool<MeshScalar>(surface_, contact.object, [&](const auto& visit) {
+    return side_of_tool<MeshScalar>(surface_, contact.object, MeshScalar(tolerance_ / 100), [&](const auto& visit) {
       for (int i = 0; i < search_.tool().vertex_count(); ++i)
         visit(Vector3<MeshScalar>((search_.vertex(i) - point).template cast<MeshScalar>()));
     });
