@@ -73,6 +73,10 @@ std::optional<Example> example(const Tool& tool, int type, std::mt19937& bits) {
   const ToolFeature feature = tool_feature(tool, result.tool);
   const double rise = rise_of(tool, feature);
   if (rise < 1e-2) return std::nullopt;
+  for (int i = 0; i < tool.vertex_count(); ++i) {  // nothing but the feature may come within tolerance
+    const bool is_own = std::find(feature.vertices.begin(), feature.vertices.end(), i) != feature.vertices.end();
+    if (!is_own && feature.outward.dot(Vector(tool.vertex(i)) - feature.point) > -1e-5) return std::nullopt;
+  }
   const double slope = std::min(1.0, rise / 2);
   double angle = type == 2 ? 0.3 + 1.2 * fraction(bits) : 3 * unit(bits);
   Vector place = Vector::Zero();
@@ -90,7 +94,7 @@ std::optional<Example> example(const Tool& tool, int type, std::mt19937& bits) {
       place.y() = 0.3 * unit(bits);
       angle = 0;
       break;
-    case 4: result.object = fan(3 + below(bits, 4), slope); break;
+    case 4: result.object = fan(3 + below(bits, 4), slope / 2.5); break;  // mid-way between corners it rises twice as much
     default: result.object = fan(3 + below(bits, 4), -0.2 - fraction(bits)); break;
   }
   result.object_kind = type == 1 || type == 6 || type == 7 ? FeatureKind::face
