@@ -307,7 +307,7 @@ BOOST_AUTO_TEST_CASE(what_does_not_fit_is_counted) {
 }
 #if FEELER_TEST_COUNTS_ALLOCATIONS
 BOOST_AUTO_TEST_CASE(recognising_allocates_nothing) {
-  BOOST_TEST_REQUIRE(count_works<Eigen::VectorXd>());
+  BOOST_TEST_REQUIRE(count_works());
   std::mt19937 bits(5);
   for (int round = 0; round < 20; ++round) {
     const Hull tool = random_hull(bits, 12);
