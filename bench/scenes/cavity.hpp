@@ -21,7 +21,7 @@ inline Scene cavity(double clearance = 1e-3) {
     scene.vertices.row(i) = room.cwiseProduct(sign).transpose();
   }
   scene.triangles.resize(12, 3);
-  // Counter-clockwise seen from inside.
+  // Counter-clockwise seen from outside: the tool is behind the surface.
   scene.triangles << 0, 4, 6, 0, 6, 2, 1, 3, 7, 1, 7, 5,  // x
       0, 1, 5, 0, 5, 4, 2, 6, 7, 2, 7, 3,                 // y
       0, 2, 3, 0, 3, 1, 4, 5, 7, 4, 7, 6;                 // z

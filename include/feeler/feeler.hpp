@@ -1,11 +1,14 @@
-// Everything a renderer needs: object, tools, solver and renderer. Includes only.
+// Everything a renderer needs: object, tools, solver, contact methods and renderer. Includes only.
 #pragma once
 
+#include "feeler/contact/contact_recogniser.hpp"
 #include "feeler/core/scalar.hpp"
 #include "feeler/core/status.hpp"
 #include "feeler/core/version.hpp"
+#include "feeler/object/surface_features.hpp"
 #include "feeler/object/triangle_mesh.hpp"
 #include "feeler/qp/dual_active_set.hpp"
+#include "feeler/render/candidate_contacts.hpp"
 #include "feeler/render/haptic_renderer.hpp"
 #include "feeler/render/settings.hpp"
 #include "feeler/render/tick.hpp"

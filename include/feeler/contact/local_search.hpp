@@ -172,7 +172,8 @@ class LocalSearch {
         const int other = mesh_.topology().neighbour(ring_[i], k);
         if (other >= 0 && edge_convexity(ring_[i], k) == shape && is_member(b, other)) return true;
         const int vertex = mesh_.triangle(ring_[i])[index(k)];
-        if (convexity(mesh_.topology().vertex_convexity(vertex)) == shape && has_vertex(b, vertex)) return true;
+        const Convexity at_vertex = mesh_.topology().vertex_convexity(vertex);
+        if (at_vertex != Convexity::boundary && convexity(at_vertex) == shape && has_vertex(b, vertex)) return true;
       }
     }
     return false;
@@ -228,17 +229,32 @@ class LocalSearch {
       known.push_back(set);
       Candidate candidate;
       for (int j = 0; j < planes_.size(); ++j) {
-        if ((set >> j & 1u) != 0) add_plane(planes_[j], candidate, region);
+        if ((set >> j & 1u) != 0) add_plane(planes_[j], j == i, candidate, region);
       }
       add(candidate, region);
     }
   }
 
-  void add_plane(const Plane& plane, Candidate& candidate, RegionCandidates& region) const noexcept {
+  /// Every near tool vertex above a plane; those past a ridge where it ends only if the candidate is the plane's own.
+  void add_plane(const Plane& plane, bool is_own, Candidate& candidate, RegionCandidates& region) const noexcept {
     for (int v = 0; v < tool_.vertex_count(); ++v) {
-      if (!is_near_[index(v)]) continue;
+      if (!is_near_[index(v)] || (!is_own && is_past_ridge(plane, tool_vertex(v)))) continue;
       if (!candidate.constraints.push_back({FeaturePair::vertex_face, v, plane.triangle, 0, is_behind_})) ++region.dropped;
     }
+  }
+
+  bool is_past_ridge(const Plane& plane, const Vector& point) const noexcept {
+    for (int i = 0; i < ring_.size(); ++i) {
+      if ((plane.members >> i & 1u) == 0) continue;
+      const Vector normal = mesh_.normal(ring_[i]).template cast<Scalar>();
+      for (int k = 0; k < 3; ++k) {
+        if (edge_convexity(ring_[i], k) != Convexity::convex) continue;
+        const Vector start = corner(ring_[i], k);
+        const Vector outside = (corner(ring_[i], (k + 1) % 3) - start).cross(normal).normalized();
+        if (outside.dot(point - start) > reach_) return true;
+      }
+    }
+    return false;
   }
 
   void add_edges(RegionCandidates& region) noexcept {
@@ -339,7 +355,7 @@ ContactRow<typename Tool::Scalar> row_of(const CandidateConstraint& constraint, 
   row.triangle = constraint.triangle;
   row.room = std::numeric_limits<Scalar>::infinity();
   const Vector corner = corners.col(constraint.corner);
-  Vector point;
+  Vector point = corner;
   switch (constraint.kind) {
     case FeaturePair::vertex_face: {  // eq. 6
       point = pose * tool.vertex(constraint.tool_feature);
@@ -350,7 +366,6 @@ ContactRow<typename Tool::Scalar> row_of(const CandidateConstraint& constraint, 
     case FeaturePair::face_vertex: {
       const auto face = tool.face(constraint.tool_feature);
       row.normal = -(pose.rotation * face.normal);
-      point = corner;
       row.gap = row.normal.dot(pose * tool.vertex(face.vertices[0]) - corner);
       for (std::size_t i = 0; i < face.vertices.size(); ++i) {
         const Vector start = pose * tool.vertex(face.vertices[i]);

@@ -12,7 +12,8 @@
 
 namespace feeler {
 
-/// Calls `visit(triangle)` for each triangle whose bounding box may meet a box, until it returns false.
+/// Calls `visit(triangle)` for each triangle whose bounding box meets a box, and for some more that share a leaf of the hierarchy with one,
+/// until it returns false.
 /// @param box  world axes [m]
 /// @cost  noexcept, no allocation, O(log n) for each triangle visited
 template <class Scalar, class MeshScalar, class Visit>
