@@ -290,6 +290,26 @@ BOOST_AUTO_TEST_CASE(nothing_touches_beyond_the_tolerance_or_where_the_pose_is_n
   BOOST_TEST(recogniser.recognise({{std::nan(""), 0, 0.1}, Eigen::Quaterniond::Identity()}).empty());
   BOOST_CHECK_THROW(ContactRecogniser<Box>(mesh, surface, box, 0.0), std::invalid_argument);
 }
+BOOST_AUTO_TEST_CASE(tools_and_objects_in_float_touch_as_in_double) {
+  std::mt19937 bits(6);
+  for (int round = 0; round < 40; ++round) {
+    const Box tool = random_box(bits);
+    for (int type = 1; type <= 12; ++type) {
+      const auto found = example(tool, type, bits);
+      if (!found) continue;
+      const auto object = found->object.divided();
+      feeler::Points<float> points(Eigen::Index(object.vertices.size()), 3);
+      for (std::size_t i = 0; i < object.vertices.size(); ++i) points.row(Eigen::Index(i)) = object.vertices[i].cast<float>().transpose();
+      feeler::Triangles rows(Eigen::Index(object.triangles.size()), 3);
+      for (std::size_t i = 0; i < object.triangles.size(); ++i)
+        for (int k = 0; k < 3; ++k) rows(Eigen::Index(i), k) = object.triangles[i][std::size_t(k)];
+      const feeler::TriangleMesh<float> mesh(points, rows);
+      const SurfaceFeatures<float> surface(mesh);
+      ContactRecogniser recogniser(mesh, surface, tool.cast<float>());
+      check(recogniser.recognise(found->pose.cast<float>()), *found, tool);
+    }
+  }
+}
 BOOST_AUTO_TEST_CASE(what_does_not_fit_is_counted) {
   // A comb of 100 separate plates, level to rounding, under one face of a box.
   Soup comb;
