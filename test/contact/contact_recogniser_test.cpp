@@ -250,6 +250,14 @@ BOOST_AUTO_TEST_CASE(segment_across_a_valley_touches_in_two_regions) {
   BOOST_TEST(count(formation, 1) == 2);
   BOOST_TEST(formation.region_count == 2);
 }
+BOOST_AUTO_TEST_CASE(places_less_than_four_tolerances_apart_are_one_region) {
+  for (const double half : {3.9e-6, 4.1e-6}) {
+    const auto formation = recognised(roof(1.0), Segment({-half, 0, half}, {half, 0, half}), Pose{});
+    BOOST_TEST_INFO_SCOPE(text(formation));
+    BOOST_TEST(count(formation, 1) == 2);
+    BOOST_TEST(formation.region_count == (half < 4e-6 ? 1 : 2));
+  }
+}
 BOOST_AUTO_TEST_CASE(segment_across_the_diagonal_of_a_floor_is_one_contact) {
   const Segment tool({-0.4, 0.3, 1e-6}, {0.4, -0.2, 1e-6});
   Soup object = floor_object();
