@@ -1,10 +1,12 @@
 // The forms that users type, the statuses, and what is left behind after each of them.
 #include <boost/test/unit_test.hpp>
 
+#include <cmath>
 #include <limits>
 #include <type_traits>
 
 #include "scenes/cavity.hpp"
+#include "scenes/motions.hpp"
 #include "scenes/plate.hpp"
 #include "support/rendering.hpp"
 
@@ -110,6 +112,23 @@ BOOST_AUTO_TEST_CASE(numbers_near_the_ends_of_the_scalar_leave_every_output_vali
         BOOST_TEST(is_valid(renderer.update({{0, 0, 0.03}, Quaternion<double>::Identity()}), 2));
       }
     }
+  }
+}
+
+BOOST_AUTO_TEST_CASE(a_device_that_comes_back_from_far_away_does_not_bring_its_rounding_into_the_object) {
+  const TriangleMesh<double> object = floor_mesh();
+  const Witness witness(Points<double>{{-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}}, Triangles{{0, 1, 2}, {0, 2, 3}}, cube);
+  Settings<double> settings;
+  settings.maximum_iterations = 32;  // time to get far, and to touch the floor on the way back
+  HapticRenderer renderer(object, cube, settings);
+  BOOST_TEST_REQUIRE((renderer.reset({{0, 0, 0.02}, Quaternion<double>::Identity()}) == Status::converged));
+  scenes::RandomBits random(17);
+  for (int i = 0; i < ticks_to_run(2000); ++i) {
+    const double size = std::pow(10.0, 12.0 * random.unit());
+    renderer.update({size * random.direction(), Quaternion<double>::Identity()});
+    renderer.update({{0, 0, 0.005}, Quaternion<double>(1, 1, 0, 0)});
+    BOOST_TEST(witness.depth_at(renderer.tick().graphic_pose) <= no_clearance_depth);
+    renderer.update({{0, 0, 0.03}, Quaternion<double>::Identity()});
   }
 }
 

@@ -426,7 +426,7 @@ class CandidateContactsFollower {
           return true;
         }
         const MovingTool<Tool> moving = scene.moving(pose_, motion);
-        const auto result = Sweep<Tool>(planes_, scene.clearance())
+        const auto result = Sweep<Tool>(planes_, scene.clearance_for(moving))
                                 .certify(scene.object(), moving, {}, tick.work, tick.work + scene.settings().work_budget);
         if (!result.blockers.empty()) is_new = admit(scene, result) || is_new;
         const Pose<Scalar> reached = moving.pose_at(result.is_exhausted ? Scalar(0) : result.time);

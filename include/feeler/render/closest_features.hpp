@@ -223,7 +223,7 @@ class ClosestFeaturesFollower {
                                {pair.corners_world.colwise() - moving.origin(), pair.normal, pair.features, true}};
     }
     const int limit = tick.work + std::max(scene.settings().work_budget / 2, scene.settings().work_budget - tick.work);
-    return Sweep<Tool>(planes_, scene.clearance())
+    return Sweep<Tool>(planes_, scene.clearance_for(moving))
         .certify(scene.object(), moving, std::span(known).first(std::size_t(working_set_.size())), tick.work, limit);
   }
 

@@ -59,6 +59,14 @@ class RenderedScene {
   Scalar radius() const noexcept { return radius_; }
   const Metric<Scalar>& metric() const noexcept { return metric_; }
   const Clearance<Scalar>& clearance() const noexcept { return clearance_; }
+  /// The clearance to certify a motion with. Where it ends is rounded to the size of the numbers it starts from, so a tool that comes from
+  /// kilometres away keeps as much distance.
+  Clearance<Scalar> clearance_for(const MovingTool<Tool>& moving) const noexcept {
+    const Scalar rounding = 8 * std::numeric_limits<Scalar>::epsilon() * (moving.origin().norm() + moving.length());
+    Clearance<Scalar> clearance = clearance_;
+    clearance.kept = std::max(clearance.kept, rounding);
+    return clearance;
+  }
   Scalar margin() const noexcept { return Scalar(settings_.margin); }
   Scalar trust_radius() const noexcept { return Scalar(settings_.trust_radius); }
 

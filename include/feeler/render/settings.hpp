@@ -37,7 +37,7 @@ struct Settings {
   Scalar step_tolerance = Scalar(5e-6);
 
   /// Linearisations a tick, at most 32; when they are spent the rest of the motion is left for the next ticks.
-  int maximum_iterations = 24;
+  int maximum_iterations = 12;
 
   /// Work a tick, in units of one distance query between the tool and a triangle (about 0.5 µs for 32 vertices); when it is
   /// spent the tick ends on the certified pose it has. Less bounds the worst tick, and lets the tool lag behind where the solution jumps.
