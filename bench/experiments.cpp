@@ -104,10 +104,13 @@ std::string name_of(const ContactFormation<double>& formation) {
   if (formation.empty()) return "none";
   std::string name;
   for (int type = 1; type <= 12; ++type)
-    for (int i = formation.count(PrincipalContactType(type)); i > 0; --i)
-      name += (name.empty() ? "" : "+") + std::to_string(type);
-  return formation.region_count > 1 ? name + " in " + std::to_string(formation.region_count) + " regions"
-                                    : name;
+    for (int i = formation.count(PrincipalContactType(type)); i > 0; --i) {
+      if (!name.empty()) name += '+';
+      name += std::to_string(type);
+    }
+  if (formation.region_count > 1)
+    name.append(" in ").append(std::to_string(formation.region_count)).append(" regions");
+  return name;
 }
 
 template <class Method, class Tool>
@@ -265,7 +268,10 @@ void write_table(const std::vector<Row>& rows, std::ostream& out) {
 
 std::string list_of(const std::vector<std::string>& formations) {
   std::string list;
-  for (const auto& name : formations) list += (list.empty() ? "" : ", ") + name;
+  for (const auto& name : formations) {
+    if (!list.empty()) list += ", ";
+    list += name;
+  }
   return list;
 }
 
