@@ -19,7 +19,6 @@ using feeler::SurfaceFeatures;
 using Box = feeler::Box<double>;
 using Hull = feeler::ConvexPolytope<double>;
 using Segment = feeler::Segment<double>;
-using Vector = Eigen::Vector3d;
 using Formation = ContactFormation<double>;
 
 namespace {
