@@ -134,6 +134,35 @@ BOOST_AUTO_TEST_CASE(
   BOOST_TEST(drag(HapticRenderer(object, tool, settings)) < 2e-6);
 }
 
+BOOST_AUTO_TEST_CASE(a_cube_pushed_flat_onto_a_plate_or_dragged_over_it_stays_on_its_side) {
+  Points<double> vertices(4, 3);
+  vertices << -0.1, -0.1, 0, 0.1, -0.1, 0, 0.1, 0.1, 0, -0.1, 0.1, 0;
+  Triangles triangles(2, 3);
+  triangles << 0, 1, 2, 0, 2, 3;
+  const TriangleMesh<double> object(vertices, triangles);
+  const Box<double> cube(Vector3<double>::Constant(0.005));
+  const auto push = [&](auto renderer, double step, const Vector3<double>& tilt) {
+    // Steps that end just on the plate, and others that do not.
+    for (const double height : {0.03, 0.0302}) {
+      const Quaternion<double> rotation = exp_rotation(tilt);
+      renderer.reset({{0.013, 0.005, height}, rotation});
+      for (int i = 1; i * step < 0.06; ++i) renderer.update({{0.013, 0.005, height - i * step}, rotation});
+      BOOST_TEST(std::abs(renderer.tick().graphic_pose.translation.x() - 0.013) < 1e-6);
+      BOOST_TEST(renderer.tick().graphic_pose.translation.z() > 0.00499);
+      for (int i = 1; i <= 100; ++i) renderer.update({{0.013 + 1e-4 * i, 0.005, -0.02}, rotation});
+      BOOST_TEST(std::abs(renderer.tick().graphic_pose.translation.x() - 0.023) < 1e-6);
+      BOOST_TEST(renderer.tick().graphic_pose.translation.z() > 0.00499);
+    }
+  };
+  for (const double step : {2e-4, 1e-3, 5e-3}) {
+    for (const Vector3<double>& tilt : {Vector3<double>(0, 0, 0), Vector3<double>(0, 0, 0.4)}) {
+      push(renderer_for<unboxed>(object, cube, {}), step, tilt);
+      push(renderer_for<repeated>(object, cube, {}), step, tilt);
+      push(renderer_for<certified>(object, cube, {}), step, tilt);
+    }
+  }
+}
+
 BOOST_AUTO_TEST_CASE(with_the_certificate_a_line_lands_on_a_ridge_and_passes_on_to_the_face_like_by_default) {
   const Comparison found = compare<certified>(scenes::steps(), 410);
   BOOST_TEST(found.farthest < 2e-5);

@@ -85,7 +85,7 @@ class CandidateContactsFollower {
     track_regions(scene, tick);
     if constexpr (is_certified) {
       const bool has_arrived = follow_certified(scene, tick);
-      keep_active_regions();
+      keep_regions_in_contact(scene);
       return has_arrived ? Status::converged : Status::unconverged;
     } else {
       ++tick.iterations;
@@ -94,7 +94,7 @@ class CandidateContactsFollower {
       if (!solutions_.empty()) {  // else there is nothing to choose: stay
         pose_ = solutions_[0].pose;
         active_ = solutions_[0].active;
-        keep_active_regions();
+        keep_regions_in_contact(scene);
       }
       tick.path.push_back(scene.tool_pose(pose_));
       return Status::unverified;
@@ -135,7 +135,13 @@ class CandidateContactsFollower {
     Pose<Scalar> pose;
     Scalar energy = Scalar(0);  // [m²]
     ActiveList active;
-    bool is_capped = false;  // short of the optimum by the trust region
+    bool is_capped = false;     // short of the optimum by the trust region
+    bool is_on_features = true; // its contacts lie on the features that they are between
+
+    /// Those on their features first, and of them the nearest to the haptic pose.
+    bool operator<(const Solution& other) const noexcept {
+      return is_on_features != other.is_on_features ? is_on_features : energy < other.energy;
+    }
   };
 
   /// How far the certificate lets the tool go towards a solution.
@@ -321,8 +327,10 @@ class CandidateContactsFollower {
         pose = moved(pose_, motion * (trust_ / length));
       }
     }
-    if (!is_admissible(scene, pose)) return;
-    keep({pose, scene.metric().energy(motion_between(target_, pose)), active, is_capped});
+    const bool is_on_features = lies_on_features(scene, pose);
+    // Where there is a certificate, it decides what lies beyond them: a feature that goes on with the next triangle may hold the tool.
+    if (!is_chosen_by_box(pose) || !(is_certified || is_on_features)) return;
+    keep({pose, scene.metric().energy(motion_between(target_, pose)), active, is_capped, is_on_features});
   }
 
   /// The constraints that held the tool in the last optimisation, without the sides of the box.
@@ -335,12 +343,12 @@ class CandidateContactsFollower {
     }
   }
 
-  /// Keeps the best solutions, the nearest to the haptic pose first.
+  /// Keeps the best solutions, the best first.
   void keep(const Solution& solution) noexcept {
-    if (solutions_.full() && !(solution.energy < solutions_[solutions_.size() - 1].energy)) return;
+    if (solutions_.full() && !(solution < solutions_[solutions_.size() - 1])) return;
     if (solutions_.full()) solutions_.pop_back();
     solutions_.push_back(solution);
-    for (int i = solutions_.size() - 1; i > 0 && solutions_[i].energy < solutions_[i - 1].energy; --i) {
+    for (int i = solutions_.size() - 1; i > 0 && solutions_[i] < solutions_[i - 1]; --i) {
       std::swap(solutions_[i], solutions_[i - 1]);
     }
   }
@@ -374,14 +382,15 @@ class CandidateContactsFollower {
     }
   }
 
-  /// Whether a solution may be chosen: its contacts lie on the features that they are between, and in the box of eq. 5 where that selects.
-  bool is_admissible(const Scene& scene, const Pose<Scalar>& pose) const noexcept {
+  bool lies_on_features(const Scene& scene, const Pose<Scalar>& pose) const noexcept {
     constexpr Scalar tolerance = Scalar(1e-9);
-    for (const Active& active : constraints_) {
-      // What the certificate lets through needs no such proof.
-      if (is_certified || active.constraint.kind == FeaturePair::vertex_face) continue;
-      if (row_at(scene, active.constraint, pose).room < -tolerance) return false;
-    }
+    return std::none_of(constraints_.begin(), constraints_.end(), [&](const Active& active) {
+      return active.constraint.kind != FeaturePair::vertex_face && row_at(scene, active.constraint, pose).room < -tolerance;
+    });
+  }
+
+  /// Whether eq. 5 lets a solution be chosen, where it selects.
+  bool is_chosen_by_box([[maybe_unused]] const Pose<Scalar>& pose) const noexcept {
     if constexpr (options.local_solution == LocalSolution::selected_by_box) {
       const Coordinates coordinates(start_);
       const Vector6<Scalar> reached = coordinates.of(pose), goal = coordinates.of(target_);
@@ -394,10 +403,13 @@ class CandidateContactsFollower {
     return true;
   }
 
-  /// The regions that hold the tool are the first contacts of the next tick.
-  void keep_active_regions() noexcept {
+  /// The regions that hold the tool or touch it are the first contacts of the next tick.
+  void keep_regions_in_contact(const Scene& scene) noexcept {
+    const Pose<Scalar> frame = tool_frame(scene, pose_);
     for (int i = regions_.size() - 1; i >= 0; --i) {
       if (std::any_of(active_.begin(), active_.end(), [i](const Active& active) { return active.region == i; })) continue;
+      Contact contact;
+      if (separation_from(scene, regions_[i].triangle, frame, contact) < scene.margin()) continue;
       regions_.swap_remove(i);
       for (Active& active : active_) {
         if (active.region == regions_.size()) active.region = i;
