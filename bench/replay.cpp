@@ -15,6 +15,7 @@
 #include "feeler/feeler.hpp"
 #include "scenes/cavity.hpp"
 #include "scenes/motions.hpp"
+#include "scenes/spline.hpp"
 #include "scenes/steps.hpp"
 #include "scenes/sulcus.hpp"
 #include "scenes/teeth.hpp"
@@ -85,7 +86,8 @@ Figures replay(const feeler::scenes::Setting& scene, const Tool& tool, const Opt
       options.hostile_seed != 0 ? feeler::scenes::hostile(scene.motion, options.hostile_seed, options.rate) : scene.motion;
   const auto metric = feeler::Metric<double>::proportional_to(settings.stiffness);
   const feeler::test::CheckedObject checked_object(scene.vertices, scene.triangles);
-  const auto checked_tool = feeler::test::checked_tool(tool);
+  std::vector<feeler::test::CheckedTool> checked_pieces;
+  for (int i = 0; i < feeler::piece_count(tool); ++i) checked_pieces.push_back(feeler::test::checked_tool(feeler::piece_of(tool, i)));
   Figures figures;
   figures.ticks = int(options.seconds * options.rate);
   Pose<double> last = scene.start;
@@ -110,9 +112,11 @@ Figures replay(const feeler::scenes::Setting& scene, const Tool& tool, const Opt
       ++figures.checked;
       Pose<double> from = last;
       for (const auto& to : tick.path) {
-        const auto found = feeler::test::deepest_penetration_on_path(
-            checked_object, checked_tool, feeler::test::checked_pose(from), feeler::test::checked_pose(to), 8);
-        figures.deepest = std::max(figures.deepest, double(found.depth));
+        for (const auto& piece : checked_pieces) {
+          const auto found = feeler::test::deepest_penetration_on_path(checked_object, piece, feeler::test::checked_pose(from),
+                                                                       feeler::test::checked_pose(to), 8);
+          figures.deepest = std::max(figures.deepest, double(found.depth));
+        }
         from = to;
       }
     }
@@ -156,13 +160,18 @@ void run(const std::string& name, const feeler::scenes::Scene& scene, const Opti
   std::visit([&](const auto& tool) { print(name, replay(scene, tool, options), options); }, scene.tool);
 }
 
+void run(const std::string& name, const feeler::scenes::CompoundScene& scene, const Options& options) {
+  using Tool = feeler::CompoundTool<feeler::ConvexPolytope<double>>;
+  print(name, replay(scene, Tool::hulls_of(scene.pieces), options), options);
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
   Options options;
   CLI::App app("feeler-replay: how long a tick takes, how exact it is, and what penetrates");
-  app.add_option("--scene", options.scene, "cavity, steps, sulcus, teeth, terrain or all")
-      ->check(CLI::IsMember({"all", "cavity", "steps", "sulcus", "teeth", "terrain"}));
+  app.add_option("--scene", options.scene, "cavity, steps, spline, sulcus, teeth, terrain or all")
+      ->check(CLI::IsMember({"all", "cavity", "steps", "spline", "sulcus", "teeth", "terrain"}));
   app.add_option("--rate", options.rate, "ticks a second")->check(CLI::Range(100.0, 1e5));
   app.add_option("--seconds", options.seconds, "length of the motion")->check(CLI::Range(0.01, 1e4));
   app.add_option("--hostile", options.hostile_seed, "seed of teleports and spins; 0 for none");
@@ -183,6 +192,11 @@ int main(int argc, char** argv) {
     if (wanted("steps")) {
       run("steps, line", feeler::scenes::steps(), options);
       run("steps, prism", feeler::scenes::steps_with_prism(), options);
+    }
+    if (wanted("spline")) {
+      run("spline 200 um", feeler::scenes::spline(2e-4), options);
+      run("spline 20 um", feeler::scenes::spline(2e-5), options);
+      run("spline 0", feeler::scenes::spline(0.0), options);
     }
     if (wanted("sulcus")) run("sulcus", feeler::scenes::sulcus(), options);
     if (wanted("teeth")) {

@@ -13,6 +13,7 @@
 #include "experiments/plots.hpp"
 #include "experiments/run.hpp"
 #include "experiments/table.hpp"
+#include "scenes/spline.hpp"
 #include "scenes/sulcus.hpp"
 #include "text_file.hpp"
 
@@ -128,16 +129,20 @@ class Experiments {
     }
   }
 
-  /// Fig. 1a.
+  /// Fig. 1.
   void fine() {
-    std::printf("\nFig. 1  Probe in the sulcus (the splined shaft of Fig. 1b needs a compound tool, which is not there yet)\n");
-    auto scene = feeler::scenes::sulcus();
-    scene.duration = 4.0;
+    std::printf("\nFig. 1  Probe in the sulcus, splined shaft in its hole\n");
+    auto probe = feeler::scenes::sulcus();
+    probe.duration = 4.0;
     for (const Method method : {Method::standard, Method::paper}) {
-      const std::string file = method == Method::paper ? "sulcus_paper" : "sulcus";
-      simulate(scene, paper_settings(method), method, file, any_state);
+      simulate(probe, paper_settings(method), method, method == Method::paper ? "sulcus_paper" : "sulcus", any_state);
     }
     figure("sulcus", 900, 620, wrench_body("sulcus.csv", "'no contact' 0, 'contact' 7"));
+    for (const auto& [clearance, name] : {std::pair(2e-4, "spline_200um"), std::pair(2e-5, "spline_20um")}) {
+      const auto shaft = insertion(clearance);
+      note(run(shaft, stiff_settings(Method::standard), shaft.duration, true), Method::standard, name, any_state);
+    }
+    figure("spline_20um", 900, 620, wrench_body("spline_20um.csv", "'no contact' 0, 'contact' 7"));
   }
 
   void table() {
@@ -163,14 +168,19 @@ class Experiments {
 
   std::vector<Record> simulate(const feeler::scenes::Scene& scene, const feeler::Settings<double>& settings, Method method,
                                const std::string& file, State (*state_of)(const Record&)) {
-    const Run result = run(scene, settings, method, scene.duration, true);
+    return note(run(scene, settings, method, scene.duration, true), method, file, state_of);
+  }
+
+  /// Writes a run down and says what it measured.
+  std::vector<Record> note(const Run& result, Method method, const std::string& file, State (*state_of)(const Record&)) {
+    constexpr double stiffness = 1000.0;  // of all experiments [N/m]
     if (result.start != feeler::Status::converged) {
       std::printf("   %-18s cannot start: %s\n", file.c_str(), to_string(result.start));
       findings_.is_as_expected = findings_.is_as_expected && method != Method::standard;
       return {};
     }
     write(file, result.ticks, state_of);
-    const Measures m = measure(result.ticks, settings.stiffness.translational.x());
+    const Measures m = measure(result.ticks, stiffness);
     std::printf("   %-18s deepest %9.3g um | force without contact %4d ticks | steps beyond the hand %6.3f mm, %6.2f N | p50 %6.1f (QP %.1f) "
                 "p99 %7.1f us, %.2f %% above 1 ms | %d switches\n",
                 file.c_str(), 1e6 * m.deepest, m.force_without_contact, 1e3 * m.pose_step, m.wrench_step, m.p50, m.optimisation_p50, m.p99,

@@ -7,6 +7,7 @@
 
 #include "scenes/cavity.hpp"
 #include "scenes/plate.hpp"
+#include "scenes/spline.hpp"
 #include "scenes/steps.hpp"
 
 namespace feeler::experiments {
@@ -68,6 +69,21 @@ inline scenes::Scene steps_states() {
     pose.translation = {v[0], -0.0145, v[1]};
     pose.rotation = Quaternion<double>::FromTwoVectors(Vector::UnitZ(), along);
     return pose;
+  };
+  scene.start = scene.motion(0.0);
+  scene.duration = 5.0;
+  return scene;
+}
+
+/// A splined shaft that is pushed 11 mm into its hole by a hand that strays from its axis, twisted both ways, and pulled out again.
+inline scenes::CompoundScene insertion(double clearance) {
+  scenes::CompoundScene scene = scenes::spline(clearance);
+  const std::vector<KeyFrame> frames{{0.0, {0.016, 0, 0, 0}},       {0.3, {0.016, 0, 0, 0}},     {1.0, {0.011, 0, 0, 0}},
+                                     {1.8, {0.004, 0, 0.0005, 0.02}}, {2.3, {0.004, 0.1, 0.0005, 0.02}}, {2.9, {0.004, -0.1, 0.0005, 0.02}},
+                                     {3.3, {0.004, 0, 0, 0}},         {4.5, {0.016, 0, 0, 0}},     {5.0, {0.016, 0, 0, 0}}};
+  scene.motion = [frames](double t) {
+    const auto v = between(frames, t);
+    return scenes::pose_of({v[3], 0.0, v[1]}, {v[2], 0.0, v[0]});
   };
   scene.start = scene.motion(0.0);
   scene.duration = 5.0;

@@ -21,4 +21,9 @@ Run run(const scenes::Scene& scene, const Settings<double>& settings, Method met
       scene.tool);
 }
 
+Run run(const scenes::CompoundScene& scene, const Settings<double>& settings, double seconds, bool is_checked) {
+  const auto tool = CompoundTool<ConvexPolytope<double>>::hulls_of(scene.pieces);
+  return detail::run_method<ClosestFeatures>(scene, tool, settings, seconds, is_checked);
+}
+
 }  // namespace feeler::experiments

@@ -57,5 +57,7 @@ struct Run {
 
 /// Renders the motion of a scene at 1 kHz; with `is_checked` the independent checker looks at each pose and at the way to it.
 Run run(const scenes::Scene& scene, const Settings<double>& settings, Method method, double seconds, bool is_checked);
+/// The same for a tool of several pieces, which the paper's method does not know; its contacts are counted as rows that hold it.
+Run run(const scenes::CompoundScene& scene, const Settings<double>& settings, double seconds, bool is_checked);
 
 }  // namespace feeler::experiments

@@ -79,15 +79,42 @@ void note_truncation(const Pose<double>& before, const Tick& tick, Record& recor
   }
 }
 
+/// Recognises the contact formation of each tick.
+template <class Tool>
+class Observer {
+ public:
+  Observer(const TriangleMesh<double>& object, const Tool& tool) : surface_(object), recogniser_(object, surface_, tool) {}
+  void observe(const Tick<double>& tick, Record& record) {
+    const auto& formation = recogniser_.recognise(tick.graphic_pose);
+    record.is_switch = tracker_.observe(formation) != nullptr;
+    record.contacts = formation.size();
+    record.regions = formation.region_count;
+    record.vertex_face = formation.count(PrincipalContactType::vertex_face);
+    record.edge_edge = formation.count(PrincipalContactType::edge_convex_edge);
+  }
+
+ private:
+  SurfaceFeatures<double> surface_;
+  ContactRecogniser<Tool> recogniser_;
+  FormationTracker<double> tracker_;
+};
+
+/// Formations are those of a convex tool; of several pieces the rows that hold them are counted.
+template <CompoundShape Tool>
+class Observer<Tool> {
+ public:
+  Observer(const TriangleMesh<double>&, const Tool&) {}
+  void observe(const Tick<double>& tick, Record& record) { record.contacts = tick.contacts.size(); }
+};
+
 template <class MethodType, class Tool>
-Run run_method(const scenes::Scene& scene, const Tool& tool, const Settings<double>& settings, double seconds, bool is_checked) {
+Run run_method(const scenes::Setting& scene, const Tool& tool, const Settings<double>& settings, double seconds, bool is_checked) {
   const TriangleMesh<double> object(scene.vertices, scene.triangles);
-  const SurfaceFeatures<double> surface(object);
-  ContactRecogniser<Tool> recogniser(object, surface, tool);
-  FormationTracker<double> tracker;
+  Observer<Tool> observer(object, tool);
   HapticRenderer<Tool, TimedSolver, MethodType> renderer(object, tool, settings);
   const test::CheckedObject checked_object(scene.vertices, scene.triangles);
-  const test::CheckedTool checked_tool = test::checked_tool(tool);
+  std::vector<test::CheckedTool> checked_pieces;
+  for (int i = 0; i < piece_count(tool); ++i) checked_pieces.push_back(test::checked_tool(piece_of(tool, i)));
   Run result;
   result.start = renderer.reset(scene.start);
   if (result.start != Status::converged) return result;
@@ -105,19 +132,16 @@ Run run_method(const scenes::Scene& scene, const Tool& tool, const Settings<doub
     record.graphic = tick.graphic_pose;
     record.wrench = tick.wrench;
     record.status = tick.status;
-    const auto& formation = recogniser.recognise(tick.graphic_pose);
-    record.is_switch = tracker.observe(formation) != nullptr;
-    record.contacts = formation.size();
-    record.regions = formation.region_count;
-    record.vertex_face = formation.count(PrincipalContactType::vertex_face);
-    record.edge_edge = formation.count(PrincipalContactType::edge_convex_edge);
+    observer.observe(tick, record);
     note_truncation(last, tick, record);
     if (is_checked) {
       Pose<double> from = last;
       for (const auto& to : tick.path) {
-        const auto found = test::deepest_penetration_on_path(checked_object, checked_tool, test::checked_pose(from),
-                                                             test::checked_pose(to), 4);
-        record.depth = std::max(record.depth, double(found.depth));
+        for (const auto& piece : checked_pieces) {
+          const auto found =
+              test::deepest_penetration_on_path(checked_object, piece, test::checked_pose(from), test::checked_pose(to), 4);
+          record.depth = std::max(record.depth, double(found.depth));
+        }
         from = to;
       }
     }

@@ -17,5 +17,6 @@
 #include "feeler/spatial/twist.hpp"
 #include "feeler/spatial/wrench.hpp"
 #include "feeler/tool/box.hpp"
+#include "feeler/tool/compound_tool.hpp"
 #include "feeler/tool/convex_polytope.hpp"
 #include "feeler/tool/segment.hpp"

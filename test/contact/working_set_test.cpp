@@ -10,11 +10,11 @@ BOOST_AUTO_TEST_SUITE(working_set)
 BOOST_AUTO_TEST_CASE(a_triangle_is_found_where_it_was_added_and_starts_with_nothing_known) {
   Set set;
   BOOST_TEST(set.size() == 0);
-  BOOST_TEST(set.find(3) == -1);
-  for (int i = 0; i < 10; ++i) set.add(100 + i, Corners::Constant(i));
+  BOOST_TEST(set.find(0, 3) == -1);
+  for (int i = 0; i < 10; ++i) set.add(0, 100 + i, Corners::Constant(i));
   BOOST_TEST(set.size() == 10);
   for (int i = 0; i < 10; ++i) {
-    const int place = set.find(100 + i);
+    const int place = set.find(0, 100 + i);
     BOOST_TEST_REQUIRE(place >= 0);
     const auto& pair = set[place];
     BOOST_TEST(pair.triangle == 100 + i);
@@ -25,31 +25,41 @@ BOOST_AUTO_TEST_CASE(a_triangle_is_found_where_it_was_added_and_starts_with_noth
     BOOST_TEST(!pair.has_rows);
     BOOST_TEST(!pair.keeps_ghost);
   }
-  BOOST_TEST(set.find(110) == -1);
+  BOOST_TEST(set.find(0, 110) == -1);
   set.clear();
   BOOST_TEST(set.size() == 0);
-  BOOST_TEST(set.find(100) == -1);
+  BOOST_TEST(set.find(0, 100) == -1);
+}
+
+BOOST_AUTO_TEST_CASE(pieces_of_a_tool_have_pairs_of_their_own_with_the_same_triangle) {
+  Set set;
+  set.add(0, 7, Corners::Zero());
+  set.add(2, 7, Corners::Ones());
+  BOOST_TEST(set[set.find(2, 7)].piece == 2);
+  BOOST_TEST((set[set.find(2, 7)].corners_world == Corners::Ones()));
+  BOOST_TEST(set.find(0, 7) != set.find(2, 7));
+  BOOST_TEST(set.find(1, 7) == -1);
 }
 
 BOOST_AUTO_TEST_CASE(a_full_set_gives_up_the_triangle_that_has_been_idle_longest) {
   Set set;
   for (int i = 0; i < Set::capacity; ++i) {
-    set.add(i, Corners::Zero());
+    set.add(0, i, Corners::Zero());
     set[i].idle_ticks = i == 17 ? 9 : i % 5;
   }
-  set.add(1000, Corners::Ones());
+  set.add(0, 1000, Corners::Ones());
   BOOST_TEST(set.size() == int(Set::capacity));
-  BOOST_TEST(set.find(17) == -1);
-  BOOST_TEST(set.find(1000) >= 0);
+  BOOST_TEST(set.find(0, 17) == -1);
+  BOOST_TEST(set.find(0, 1000) >= 0);
   for (int i = 0; i < Set::capacity; ++i)
-    if (i != 17) BOOST_TEST(set.find(i) >= 0);
+    if (i != 17) BOOST_TEST(set.find(0, i) >= 0);
 }
 
 BOOST_AUTO_TEST_CASE(idle_triangles_leave_after_the_longest_time_and_touching_ones_stay) {
   Set set;
-  set.add(1, Corners::Zero());  // touches
-  set.add(2, Corners::Zero());  // near, idle
-  set.add(3, Corners::Zero());  // far, idle
+  set.add(0, 1, Corners::Zero());  // touches
+  set.add(0, 2, Corners::Zero());  // near, idle
+  set.add(0, 3, Corners::Zero());  // far, idle
   const auto slack = [&set] {
     for (int i = 0; i < set.size(); ++i)
       set[i].slack = set[i].triangle == 1 ? 1e-7 : set[i].triangle == 2 ? 1e-4 : 1e-1;
@@ -57,19 +67,19 @@ BOOST_AUTO_TEST_CASE(idle_triangles_leave_after_the_longest_time_and_touching_on
   for (int tick = 1; tick <= 8; ++tick) {
     slack();
     set.age(8, 4e-6, 1e-2, false);
-    BOOST_TEST(set.find(1) >= 0);
-    BOOST_TEST(set.find(2) >= 0);
-    BOOST_TEST((set.find(3) >= 0) == (tick == 1));  // out of reach: one tick of grace
-    BOOST_TEST(set[set.find(2)].idle_ticks == tick);
+    BOOST_TEST(set.find(0, 1) >= 0);
+    BOOST_TEST(set.find(0, 2) >= 0);
+    BOOST_TEST((set.find(0, 3) >= 0) == (tick == 1));  // out of reach: one tick of grace
+    BOOST_TEST(set[set.find(0, 2)].idle_ticks == tick);
   }
   set.age(8, 4e-6, 1e-2, false);
-  BOOST_TEST(set.find(2) == -1);
+  BOOST_TEST(set.find(0, 2) == -1);
   BOOST_TEST(set.size() == 1);
 }
 
 BOOST_AUTO_TEST_CASE(a_ghost_that_was_kept_is_kept_on_only_as_long_as_asked) {
   Set set;
-  set.add(1, Corners::Zero());
+  set.add(0, 1, Corners::Zero());
   set[0].keeps_ghost = true;
   set.age(8, 1, 1, true);
   BOOST_TEST(set[0].keeps_ghost);

@@ -24,6 +24,7 @@ struct ContactRow {
   using Scalar = ScalarType;
 
   FeaturePair kind = FeaturePair::vertex_face;
+  int piece = 0;  ///< of the tool
   int triangle = -1;
   bool is_assumed = false;  ///< a plane that the tool is not over yet: a step that it stops is not the last one
   Vector3<Scalar> normal = Vector3<Scalar>::UnitZ();     ///< unit, from the object to the tool

@@ -1,4 +1,4 @@
-// The few triangles that hold the tool or lately did, from tick to tick.
+// The few pairs of tool piece and triangle that hold the tool or lately did, from tick to tick.
 #pragma once
 
 #include "feeler/core/fixed_vector.hpp"
@@ -7,9 +7,10 @@
 
 namespace feeler {
 
-/// A triangle near the tool and what is known of it at the last certified pose.
+/// A triangle near a piece of the tool and what is known of the two at the last certified pose.
 template <class Scalar>
 struct WorkingPair {
+  int piece = 0;
   int triangle = -1;
   Matrix3<Scalar> corners_world;  ///< a corner a column [m]
   WitnessFeatures features;       ///< where the last query ended
@@ -22,28 +23,28 @@ struct WorkingPair {
 };
 
 /// The working set: constraints enter when they block and leave when they have long been idle.
-template <class ScalarType>
+template <class ScalarType, int pair_capacity = 48>
 class WorkingSet {
  public:
   using Scalar = ScalarType;
   using Pair = WorkingPair<Scalar>;
-  static constexpr int capacity = 48;
+  static constexpr int capacity = pair_capacity;
 
   int size() const noexcept { return pairs_.size(); }
   Pair& operator[](int i) noexcept { return pairs_[i]; }
   const Pair& operator[](int i) const noexcept { return pairs_[i]; }
   void clear() noexcept { pairs_.clear(); }
 
-  /// Position of a triangle, or -1.
-  int find(int triangle) const noexcept {
+  /// Position of a pair, or -1.
+  int find(int piece, int triangle) const noexcept {
     for (int i = 0; i < pairs_.size(); ++i) {
-      if (pairs_[i].triangle == triangle) return i;
+      if (pairs_[i].triangle == triangle && pairs_[i].piece == piece) return i;
     }
     return -1;
   }
 
-  /// Adds a triangle, in place of the longest idle one when full.
-  void add(int triangle, const Matrix3<Scalar>& corners_world) noexcept {
+  /// Adds a pair, in place of the longest idle one when full.
+  void add(int piece, int triangle, const Matrix3<Scalar>& corners_world) noexcept {
     if (pairs_.full()) {
       int idlest = 0;
       for (int i = 1; i < pairs_.size(); ++i) {
@@ -52,6 +53,7 @@ class WorkingSet {
       pairs_.swap_remove(idlest);
     }
     Pair pair;
+    pair.piece = piece;
     pair.triangle = triangle;
     pair.corners_world = corners_world;
     pairs_.push_back(pair);

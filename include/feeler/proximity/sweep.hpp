@@ -27,6 +27,7 @@ template <class Scalar>
 struct Blocker {
   int triangle = -1;
   Scalar time = Scalar(0);
+  int piece = 0;  ///< of the tool
 };
 
 /// Result of a sweep: the motion is free of collision on [0, time].
@@ -36,8 +37,16 @@ struct SweepResult {
 
   Scalar time = Scalar(1);
   FixedVector<Blocker<Scalar>, blocker_capacity> blockers;
-  bool is_exhausted = false;  ///< the work limit was reached: nothing is certified, time is 0
+  bool is_exhausted = false;  ///< the work limit was reached: nothing is certified, time is 0; the blockers found so far are real
 };
+
+/// How far a motion that is blocked at a time should be looked at further: past its first blocker, to know the ones just behind it.
+template <ConvexTool Tool>
+typename Tool::Scalar worth_certifying(typename Tool::Scalar blocked, const Clearance<typename Tool::Scalar>& clearance,
+                                       const MovingTool<Tool>& moving) noexcept {
+  using Scalar = typename Tool::Scalar;
+  return std::max(blocked, std::min(Scalar(1), clearance.probe / moving.length()));
+}
 
 /// Certifies motions of a tool against a triangle mesh with one traversal of its bounding volume hierarchy.
 ///
@@ -59,16 +68,19 @@ class Sweep {
   /// @param known   triangles to examine first, exactly; the traversal skips them
   /// @param work    grows by the work done
   /// @param limit   value of `work` at which the sweep gives up
+  /// @param until   time up to which the motion is of interest: only [0, until] is certified
   template <class MeshScalar>
   SweepResult<Scalar> certify(const TriangleMesh<MeshScalar>& mesh, const MovingTool<Tool>& moving,
-                              std::span<const KnownTriangle<Scalar>> known, int& work, int limit) noexcept {
+                              std::span<const KnownTriangle<Scalar>> known, int& work, int limit,
+                              Scalar until = Scalar(1)) noexcept {
     SweepResult<Scalar> result;
+    result.time = until;
     start_ = moving.frame_at(Scalar(0));
-    set_end(moving, Scalar(1), mesh);
+    set_end(moving, until, mesh);
     planes_.age();
     for (const KnownTriangle<Scalar>& pair : known) {
       examine(pair.triangle, pair.state, moving, mesh, result, work);
-      if (work > limit) return give_up();
+      if (work > limit) return give_up(result);
     }
 
     const auto& bvh = mesh.bvh();
@@ -84,7 +96,7 @@ class Sweep {
         tests = 0;
         ++work;
       }
-      if (work > limit) return give_up();
+      if (work > limit) return give_up(result);
       if (node.count == 0) {
         for (int child = node.first; child < node.first + 2; ++child) {
           if (!passes(nodes[std::size_t(child)])) stack[std::size_t(depth++)] = child;
@@ -109,8 +121,7 @@ class Sweep {
     float limit;
   };
 
-  static SweepResult<Scalar> give_up() noexcept {
-    SweepResult<Scalar> result;
+  static SweepResult<Scalar> give_up(SweepResult<Scalar>& result) noexcept {
     result.time = Scalar(0);
     result.is_exhausted = true;
     return result;
@@ -131,12 +142,12 @@ class Sweep {
     if (result.blockers.full()) {
       auto latest = std::max_element(result.blockers.begin(), result.blockers.end(),
                                      [](const auto& a, const auto& b) { return a.time < b.time; });
-      if (passage.time < latest->time) *latest = {triangle, passage.time};
+      if (passage.time < latest->time) *latest = {triangle, passage.time, 0};
     } else {
-      result.blockers.push_back({triangle, passage.time});
+      result.blockers.push_back({triangle, passage.time, 0});
     }
     if (passage.time < result.time) result.time = passage.time;
-    const Scalar enough = std::max(result.time, std::min(Scalar(1), clearance_.probe / moving.length()));
+    const Scalar enough = worth_certifying(result.time, clearance_, moving);
     if (2 * enough <= end_.time) set_end(moving, enough, mesh);
   }
 

@@ -13,8 +13,8 @@
 #include "feeler/core/fixed_vector.hpp"
 #include "feeler/core/status.hpp"
 #include "feeler/proximity/separation.hpp"
-#include "feeler/proximity/sweep.hpp"
 #include "feeler/render/contact_method.hpp"
+#include "feeler/render/motion_certificate.hpp"
 #include "feeler/render/rendered_scene.hpp"
 #include "feeler/render/step_coordinates.hpp"
 #include "feeler/render/tick.hpp"
@@ -71,7 +71,7 @@ class CandidateContactsFollower {
     regions_.clear();
     active_.clear();
     solutions_.clear();
-    if constexpr (is_certified) planes_.clear();
+    if constexpr (is_certified) certificate_.clear();
     static_cast<void>(scene);
   }
 
@@ -437,11 +437,10 @@ class CandidateContactsFollower {
           active_ = solution.active;
           return true;
         }
-        const MovingTool<Tool> moving = scene.moving(pose_, motion);
-        const auto result = Sweep<Tool>(planes_, scene.clearance_for(moving))
-                                .certify(scene.object(), moving, {}, tick.work, tick.work + scene.settings().work_budget);
+        const auto result =
+            certificate_.certify(scene, pose_, motion, tick.work, tick.work + scene.settings().work_budget);
         if (!result.blockers.empty()) is_new = admit(scene, result) || is_new;
-        const Pose<Scalar> reached = moving.pose_at(result.is_exhausted ? Scalar(0) : result.time);
+        const Pose<Scalar> reached = moved(pose_, motion * (result.is_exhausted ? Scalar(0) : result.time));
         const bool is_there = !result.is_exhausted && result.blockers.empty();
         const Scalar energy = scene.metric().energy(motion_between(target_, reached));
         if (best.solution == nullptr || is_there || energy < best.energy) {
@@ -506,7 +505,7 @@ class CandidateContactsFollower {
   Solver solver_;
   QpProblem<Scalar> problem_;
   QpSolution<Scalar> qp_solution_;
-  [[no_unique_address]] std::conditional_t<is_certified, PlaneCache<Scalar>, Nothing> planes_;
+  [[no_unique_address]] std::conditional_t<is_certified, MotionCertificate<ToolType>, Nothing> certificate_;
   int combinations_ = 0;
   int dropped_ = 0;
 };

@@ -9,8 +9,8 @@
 #include "feeler/contact/contact_patch.hpp"
 #include "feeler/contact/working_set.hpp"
 #include "feeler/core/status.hpp"
-#include "feeler/proximity/sweep.hpp"
 #include "feeler/render/contact_method.hpp"
+#include "feeler/render/motion_certificate.hpp"
 #include "feeler/render/rendered_scene.hpp"
 #include "feeler/render/step_problem.hpp"
 #include "feeler/render/tick.hpp"
@@ -21,21 +21,22 @@ namespace feeler {
 ///
 /// Each iteration linearises the rows of the working set, solves for a step, linearises again where it ends, and then certifies the whole
 /// motion triangle by triangle. What blocks it joins the working set, and the pose advances as far as the motion is certified.
-template <ConvexTool ToolType, QpSolver Solver>
+template <RigidTool ToolType, QpSolver Solver>
 class ClosestFeaturesFollower {
  public:
   using Scene = RenderedScene<ToolType>;
   using Scalar = typename Scene::Scalar;
   using MeshScalar = typename Scene::MeshScalar;
-  using Tool = typename Scene::Tool;
+  using Piece = typename Scene::Piece;
 
   const Pose<Scalar>& pose() const noexcept { return pose_; }
 
   void reset(const Scene& scene, const Pose<Scalar>& pose) noexcept {
     pose_ = pose;
     working_set_.clear();
-    planes_.clear();
+    certificate_.clear();
     goes_on_ = false;
+    patience_ = 0;
     reset_limits(scene);
   }
 
@@ -44,6 +45,7 @@ class ClosestFeaturesFollower {
     working_set_.age(longest_idle, 4 * scene.margin(), 4 * scene.trust_radius(), goes_on_);
     if (!goes_on_) reset_limits(scene);
     goes_on_ = !advance(scene, tick);
+    adapt_budget(scene, tick);
     return goes_on_ ? Status::unconverged : Status::converged;
   }
 
@@ -53,9 +55,10 @@ class ClosestFeaturesFollower {
     for (const auto& active : problem_.solution().active) {
       if (active.row >= problem_.row_count()) continue;
       const auto& row = problem_.row(active.row);
-      const int pair = working_set_.find(row.triangle);
+      const int pair = working_set_.find(row.piece, row.triangle);
       if (pair >= 0) working_set_[pair].idle_ticks = 0;
       ActiveContact<MeshScalar> contact;
+      contact.piece = row.piece;
       contact.triangle = row.triangle;
       contact.point_world = (pose_.translation + row.arm).template cast<MeshScalar>();
       contact.normal_world = row.normal.template cast<MeshScalar>();
@@ -66,7 +69,10 @@ class ClosestFeaturesFollower {
   }
 
  private:
+  static constexpr bool is_convex = maximum_pieces<ToolType> == 1;
+  static constexpr int row_capacity = is_convex ? 128 : 256;
   using Pair = WorkingPair<Scalar>;
+  using Pairs = WorkingSet<Scalar, is_convex ? 48 : 256>;
 
   static constexpr int longest_idle = 8;
 
@@ -78,6 +84,16 @@ class ClosestFeaturesFollower {
     bool is_free = false;      // no contact holds the tool
     Scalar restoration = 0;   // energy that it may cost to win the margin back [m²]
   };
+
+  /// A fit all around a tool may take more work to look at once than a tick has; with less it would never move.
+  int work_budget(const Scene& scene) const noexcept { return scene.settings().work_budget << patience_; }
+
+  /// Doubles the budget after a tick in which it ran out and the tool did not move, and halves it where half would do.
+  void adapt_budget(const Scene& scene, const Tick<MeshScalar>& tick) noexcept {
+    constexpr int most_patience = 4;
+    if (tick.work >= work_budget(scene) && tick.path.empty()) patience_ = std::min(patience_ + 1, most_patience);
+    if (tick.work < work_budget(scene) / 3) patience_ = std::max(patience_ - 1, 0);
+  }
 
   void reset_limits(const Scene& scene) noexcept {
     trust_ = scene.trust_radius();
@@ -93,18 +109,18 @@ class ClosestFeaturesFollower {
       const Proposal proposal = propose(scene, tick);
       const Scalar length = scene.length_of(proposal.motion);
       if (length <= resting) return proposal.is_settled && !proposal.is_capped;
-      const MovingTool<Tool> moving = scene.moving(pose_, proposal.motion);
-      if (!descends(scene, moving.pose_at(Scalar(1)), proposal.restoration)) {
+      if (!descends(scene, moved(pose_, proposal.motion), proposal.restoration)) {
         trust_ = std::min(trust_, length) / 4;
         if (trust_ < resting) break;
         continue;
       }
-      const auto result = certify(scene, moving, tick);
+      const auto result = certify(scene, proposal.motion, tick);
       if (result.is_exhausted) {
-        (problem_.row_count() > 0 ? trust_ : flight_) = length / 8;
+        // What was found to block is real, and saves work next time.
+        if (!admit(scene, result)) (problem_.row_count() > 0 ? trust_ : flight_) = length / 8;
       } else {
         const bool is_done = result.blockers.empty() && proposal.is_settled && !proposal.is_capped;
-        pose_ = is_done && proposal.is_free ? target_ : moving.pose_at(result.time);
+        pose_ = is_done && proposal.is_free ? target_ : moved(pose_, proposal.motion * result.time);
         if (result.time > Scalar(0)) tick.path.push_back(scene.tool_pose(pose_));
         if (is_done) return true;
         if (result.blockers.empty()) {
@@ -114,9 +130,10 @@ class ClosestFeaturesFollower {
           trust_ = length * std::max(result.time, Scalar(1) / 4);
         }
       }
-      if (tick.work >= scene.settings().work_budget || trust_ < resting) break;
+      if (tick.work >= work_budget(scene) || trust_ < resting) break;
     }
     trust_ = std::max(trust_, Scalar(1e-7));
+    flight_ = std::max(flight_, Scalar(1e-7));
     return false;
   }
 
@@ -172,7 +189,6 @@ class ClosestFeaturesFollower {
     problem_.clear();
     const Matrix3<Scalar> axes = pose.rotation.toRotationMatrix();
     const Scalar band = scene.trust_radius() / 4;
-    ContactPatch<Tool, MeshScalar> patch(scene.tool(), scene.object(), axes, scene.reference(), band, assumes_valleys);
     PatchRows<Scalar> rows;
     for (int i = 0; i < working_set_.size(); ++i) {
       Pair& pair = working_set_[i];
@@ -184,8 +200,10 @@ class ClosestFeaturesFollower {
         pair.normal = axes * closest.normal;
         pair.slack = closest.distance;
       }
+      ContactPatch<Piece, MeshScalar> patch(scene.piece(pair.piece), scene.object(), axes, scene.reference(), band, assumes_valleys);
       pair.has_rows = patch.find(pair.triangle, corners, closest, pair.keeps_ghost, rows);
       for (ContactRow<Scalar>& row : rows) {
+        row.piece = pair.piece;
         row.triangle = pair.triangle;
         problem_.add(row, pair.slack, pair.is_tight);
       }
@@ -197,7 +215,7 @@ class ClosestFeaturesFollower {
   void note_tight_pairs() noexcept {
     for (int i = 0; i < working_set_.size(); ++i) working_set_[i].is_tight = false;
     for (int k = 0; k < problem_.row_count(); ++k) {
-      if (problem_.is_relaxed(k)) working_set_[working_set_.find(problem_.row(k).triangle)].is_tight = true;
+      if (problem_.is_relaxed(k)) working_set_[working_set_.find(problem_.row(k).piece, problem_.row(k).triangle)].is_tight = true;
     }
   }
 
@@ -205,35 +223,29 @@ class ClosestFeaturesFollower {
   static ClosestPoints<Scalar> closest_points(const Scene& scene, const Matrix3<Scalar>& corners,
                                               const Matrix3<Scalar>& axes, const Pair& pair,
                                               bool is_certified) noexcept {
-    ClosestPoints<Scalar> closest = gjk(scene.tool(), corners, pair.features, scene.clearance().touching);
+    const Piece& piece = scene.piece(pair.piece);
+    ClosestPoints<Scalar> closest = gjk(piece, corners, pair.features, scene.clearance().touching);
     if (!closest.is_touching) return closest;
-    if (is_certified || pair.slack < 2 * scene.clearance().touching) return separation_of_touching(scene.tool(), corners, closest);
+    if (is_certified || pair.slack < 2 * scene.clearance().touching) return separation_of_touching(piece, corners, closest);
     closest.normal = axes.transpose() * pair.normal;
-    closest.distance = separation_along(scene.tool(), corners, closest.normal);
+    closest.distance = separation_along(piece, corners, closest.normal);
     closest.features = {};
-    closest.tool_point = scene.tool().vertex(scene.tool().support(Vector3<Scalar>(-closest.normal)));
+    closest.tool_point = piece.vertex(piece.support(Vector3<Scalar>(-closest.normal)));
     return closest;
   }
 
-  SweepResult<Scalar> certify(const Scene& scene, const MovingTool<Tool>& moving, Tick<MeshScalar>& tick) noexcept {
-    std::array<KnownTriangle<Scalar>, std::size_t(WorkingSet<Scalar>::capacity)> known;
-    for (int i = 0; i < working_set_.size(); ++i) {
-      const Pair& pair = working_set_[i];
-      known[std::size_t(i)] = {pair.triangle,
-                               {pair.corners_world.colwise() - moving.origin(), pair.normal, pair.features, true}};
-    }
-    const int limit = tick.work + std::max(scene.settings().work_budget / 2, scene.settings().work_budget - tick.work);
-    return Sweep<Tool>(planes_, scene.clearance_for(moving))
-        .certify(scene.object(), moving, std::span(known).first(std::size_t(working_set_.size())), tick.work, limit);
+  SweepResult<Scalar> certify(const Scene& scene, const Twist<Scalar>& motion, Tick<MeshScalar>& tick) noexcept {
+    const int limit = tick.work + std::max(work_budget(scene) / 2, work_budget(scene) - tick.work);
+    return certificate_.certify(scene, pose_, motion, tick.work, limit, working_set_);
   }
 
   /// Takes what blocked into the working set; false when all of it was there already with rows of its own.
   bool admit(const Scene& scene, const SweepResult<Scalar>& result) noexcept {
     bool is_new = false;
     for (const auto& blocker : result.blockers) {
-      int i = working_set_.find(blocker.triangle);
+      int i = working_set_.find(blocker.piece, blocker.triangle);
       if (i < 0) {
-        working_set_.add(blocker.triangle, scene.object().corners(blocker.triangle).template cast<Scalar>());
+        working_set_.add(blocker.piece, blocker.triangle, scene.object().corners(blocker.triangle).template cast<Scalar>());
         is_new = true;
         continue;
       }
@@ -250,16 +262,17 @@ class ClosestFeaturesFollower {
   Pose<Scalar> pose_;     // the certified pose
   Pose<Scalar> target_;   // the haptic pose
   bool goes_on_ = false;  // the last tick left motion for this one
+  int patience_ = 0;      // doublings of the work budget
   Scalar trust_ = 0;      // longest motion proposed near the object
   Scalar flight_ = 0;     // the same away from it, where only the work of the certificate limits it
-  WorkingSet<Scalar> working_set_;
-  PlaneCache<Scalar> planes_;
-  StepProblem<Solver> problem_;
+  Pairs working_set_;
+  MotionCertificate<ToolType> certificate_;
+  StepProblem<Solver, row_capacity> problem_;
 };
 
 /// The default contact method: constraint planes between the closest features of the tool and the triangles in its way.
 struct ClosestFeatures {
-  template <ConvexTool Tool, QpSolver Solver>
+  template <RigidTool Tool, QpSolver Solver>
   using Follower = ClosestFeaturesFollower<Tool, Solver>;
 };
 

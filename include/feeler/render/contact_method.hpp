@@ -17,7 +17,7 @@ namespace feeler {
 /// arrived. `report(scene, tick)` lists what holds the tool there. All poses are those of the reference point.
 template <class Method, class Tool, class Solver>
 concept ContactMethod =
-    ConvexTool<Tool> && QpSolver<Solver> &&
+    RigidTool<Tool> && QpSolver<Solver> &&
     requires(typename Method::template Follower<Tool, Solver>& follower, const RenderedScene<Tool>& scene,
              const Pose<typename RenderedScene<Tool>::Scalar>& pose, Tick<typename Tool::Scalar>& tick) {
       { follower.reset(scene, pose) } noexcept;

@@ -5,28 +5,28 @@
 
 #include "feeler/core/status.hpp"
 #include "feeler/object/triangle_mesh.hpp"
-#include "feeler/proximity/sweep.hpp"
 #include "feeler/qp/dual_active_set.hpp"
 #include "feeler/render/closest_features.hpp"
 #include "feeler/render/contact_method.hpp"
+#include "feeler/render/motion_certificate.hpp"
 #include "feeler/render/rendered_scene.hpp"
 #include "feeler/render/settings.hpp"
 #include "feeler/render/tick.hpp"
-#include "feeler/tool/convex_tool.hpp"
+#include "feeler/tool/rigid_tool.hpp"
 
 namespace feeler {
 
-/// Renders rigid contact of a convex tool with a triangle mesh to the hand.
+/// Renders rigid contact of a tool, convex or of convex pieces, with a triangle mesh to the hand.
 ///
 /// Each tick minimises the distance of the graphic pose to the haptic pose (paper, eq. 1 and 3) among the poses that do not penetrate the
 /// object and that a collision-free path joins to the last pose. With the default contact method the path is certified triangle by triangle
 /// (`Sweep`), so whatever the device does, a pose that is returned is free of collision and nothing thin is crossed.
 ///
 /// The object must outlive the renderer. One renderer belongs to one thread at a time.
-/// @tparam Tool    a `ConvexTool`; its scalar is the renderer's
+/// @tparam Tool    a `RigidTool`; its scalar is the renderer's
 /// @tparam Solver  a `QpSolver` on the working scalar
 /// @tparam Method  a `ContactMethod`: how contact is modelled
-template <ConvexTool ToolType, QpSolver Solver = DualActiveSet<WorkingScalar<typename ToolType::Scalar>>,
+template <RigidTool ToolType, QpSolver Solver = DualActiveSet<WorkingScalar<typename ToolType::Scalar>>,
           ContactMethod<ToolType, Solver> Method = ClosestFeatures>
 class HapticRenderer {
  public:
@@ -86,10 +86,8 @@ class HapticRenderer {
  private:
   bool is_free_at(const Pose<Working>& pose) const noexcept {
     int work = 0;
-    PlaneCache<Working> planes;
-    return Sweep<typename RenderedScene<Tool>::Tool>(planes, scene_.clearance())
-        .certify(scene_.object(), scene_.moving(pose, {}), {}, work, std::numeric_limits<int>::max())
-        .blockers.empty();
+    MotionCertificate<Tool> certificate;
+    return certificate.certify(scene_, pose, {}, work, std::numeric_limits<int>::max()).blockers.empty();
   }
 
   void report(const Pose<Working>& target) noexcept {
@@ -107,9 +105,9 @@ class HapticRenderer {
   Tick<Scalar> tick_;
 };
 
-template <ConvexTool Tool>
+template <RigidTool Tool>
 HapticRenderer(const TriangleMesh<typename Tool::Scalar>&, const Tool&) -> HapticRenderer<Tool>;
-template <ConvexTool Tool>
+template <RigidTool Tool>
 HapticRenderer(const TriangleMesh<typename Tool::Scalar>&, const Tool&, const Settings<typename Tool::Scalar>&)
     -> HapticRenderer<Tool>;
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <limits>
 #include <type_traits>
 
@@ -9,13 +10,13 @@
 #include "feeler/proximity/motion.hpp"
 #include "feeler/proximity/passage.hpp"
 #include "feeler/render/settings.hpp"
-#include "feeler/tool/convex_tool.hpp"
+#include "feeler/tool/rigid_tool.hpp"
 
 namespace feeler {
 
 namespace detail {
 /// The tool in the scalar that decides collisions.
-template <class Working, ConvexTool Tool>
+template <class Working, RigidTool Tool>
 auto working_tool(const Tool& tool) {
   if constexpr (std::is_same_v<typename Tool::Scalar, Working>) {
     return tool;
@@ -27,21 +28,25 @@ auto working_tool(const Tool& tool) {
 
 /// The constant part of a rendering. Poses that a contact method works on are those of the reference point: their translation is where it
 /// is in the world, not where the origin of the tool frame is.
-template <ConvexTool ToolType>
+template <RigidTool ToolType>
 class RenderedScene {
  public:
   using MeshScalar = typename ToolType::Scalar;
   using Scalar = WorkingScalar<MeshScalar>;
   using Tool = std::remove_cvref_t<decltype(detail::working_tool<Scalar>(std::declval<const ToolType&>()))>;
+  using Piece = PieceOf<Tool>;
 
   RenderedScene(const TriangleMesh<MeshScalar>& object, const ToolType& tool, const Settings<MeshScalar>& settings)
       : object_(&object),
         tool_(detail::working_tool<Scalar>(tool)),
         settings_(settings),
         reference_(settings.reference_point.template cast<Scalar>()),
-        radius_(radius_about(tool_, reference_)),
         metric_((settings.metric ? *settings.metric : Metric<MeshScalar>::proportional_to(settings.stiffness))
                     .template cast<Scalar>()) {
+    for (int i = 0; i < piece_count(); ++i) {
+      radii_[index(i)] = radius_about(piece(i), reference_);
+      radius_ = std::max(radius_, radii_[index(i)]);
+    }
     const Scalar size = std::max(radius_, Scalar(object.bounds().diagonal().norm()));
     const Scalar rounding = 256 * std::numeric_limits<Scalar>::epsilon() * size;
     clearance_.kept = margin() / 10;
@@ -52,6 +57,8 @@ class RenderedScene {
 
   const TriangleMesh<MeshScalar>& object() const noexcept { return *object_; }
   const Tool& tool() const noexcept { return tool_; }
+  int piece_count() const noexcept { return feeler::piece_count(tool_); }
+  const Piece& piece(int i) const noexcept { return piece_of(tool_, i); }
   const Settings<MeshScalar>& settings() const noexcept { return settings_; }
   /// In the tool frame [m].
   const Vector3<Scalar>& reference() const noexcept { return reference_; }
@@ -61,7 +68,7 @@ class RenderedScene {
   const Clearance<Scalar>& clearance() const noexcept { return clearance_; }
   /// The clearance to certify a motion with. Where it ends is rounded to the size of the numbers it starts from, so a tool that comes from
   /// kilometres away keeps as much distance.
-  Clearance<Scalar> clearance_for(const MovingTool<Tool>& moving) const noexcept {
+  Clearance<Scalar> clearance_for(const MovingTool<Piece>& moving) const noexcept {
     const Scalar rounding = 8 * std::numeric_limits<Scalar>::epsilon() * (moving.origin().norm() + moving.length());
     Clearance<Scalar> clearance = clearance_;
     clearance.kept = std::max(clearance.kept, rounding);
@@ -79,8 +86,9 @@ class RenderedScene {
     const Pose<Scalar> tool{pose.translation - pose.rotation * reference_, pose.rotation};
     return tool.template cast<MeshScalar>();
   }
-  MovingTool<Tool> moving(const Pose<Scalar>& from, const Twist<Scalar>& motion) const noexcept {
-    return {tool_, reference_, radius_, from, motion};
+  /// A piece of the tool on a motion of the whole.
+  MovingTool<Piece> moving(int i, const Pose<Scalar>& from, const Twist<Scalar>& motion) const noexcept {
+    return {piece(i), reference_, radii_[index(i)], from, motion};
   }
   /// Bound on the path of every tool point [m].
   Scalar length_of(const Twist<Scalar>& motion) const noexcept {
@@ -93,11 +101,14 @@ class RenderedScene {
   }
 
  private:
+  static std::size_t index(int i) noexcept { return std::size_t(i); }
+
   const TriangleMesh<MeshScalar>* object_;
   Tool tool_;
   Settings<MeshScalar> settings_;
   Vector3<Scalar> reference_;
-  Scalar radius_;
+  std::array<Scalar, std::size_t(maximum_pieces<Tool>)> radii_;
+  Scalar radius_ = Scalar(0);
   Metric<Scalar> metric_;
   Clearance<Scalar> clearance_;
 };

@@ -41,6 +41,7 @@ struct Settings {
 
   /// Work a tick, in units of one distance query between the tool and a triangle (about 0.5 µs for 32 vertices); when it is
   /// spent the tick ends on the certified pose it has. Less bounds the worst tick, and lets the tool lag behind where the solution jumps.
+  /// While it is not enough to move the tool at all, up to sixteen times as much.
   int work_budget = 400;
 };
 

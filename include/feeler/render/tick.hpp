@@ -14,7 +14,8 @@ template <RealScalar ScalarType>
 struct ActiveContact {
   using Scalar = ScalarType;
 
-  int triangle = -1;                                    ///< row of `triangles` as given to the mesh
+  int piece = 0;                                           ///< of the tool; 0 for a convex one
+  int triangle = -1;                                       ///< row of `triangles` as given to the mesh
   Vector3<Scalar> point_world = Vector3<Scalar>::Zero();   ///< [m]
   Vector3<Scalar> normal_world = Vector3<Scalar>::Zero();  ///< unit, from the object to the tool
   Scalar gap = Scalar(0);                                  ///< separation along the normal [m], close to the margin
