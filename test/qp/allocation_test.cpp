@@ -2,20 +2,27 @@
 #include <boost/test/unit_test.hpp>
 
 #include <random>
+#include <tuple>
 
 #include "feeler/qp/dual_active_set.hpp"
+#include "feeler/qp/interior_point.hpp"
+#include "feeler/qp/projected_gauss_seidel.hpp"
+#include "feeler/qp/textbook_active_set.hpp"
 #include "support/allocation_count.hpp"
 #include "support/random_geometry.hpp"
 
 BOOST_AUTO_TEST_SUITE(qp_allocation)
 
 #if FEELER_TEST_COUNTS_ALLOCATIONS
-BOOST_AUTO_TEST_CASE(solving_allocates_nothing_and_the_count_would_show_it) {
+using Solvers = std::tuple<feeler::DualActiveSet<double>, feeler::InteriorPoint<double>,
+                           feeler::ProjectedGaussSeidel<double>, feeler::TextbookActiveSet<double>>;
+
+BOOST_AUTO_TEST_CASE_TEMPLATE(solving_allocates_nothing_and_the_count_would_show_it, Solver, Solvers) {
   BOOST_TEST(feeler_test::count_works());
   constexpr unsigned seed = 5;
   BOOST_TEST_MESSAGE("seed " << seed);
   std::mt19937 bits(seed);
-  feeler::DualActiveSet<double> solver;
+  Solver solver;
   feeler::QpSolution<double> solution;
   feeler::QpProblem<double> problem;
   for (int i = 0; i < 300; ++i) {

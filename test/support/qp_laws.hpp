@@ -26,6 +26,12 @@ using WideMatrix6 = Eigen::Matrix<WideReal, 6, 6>;
 using WideRows = Eigen::Matrix<WideReal, Eigen::Dynamic, 6>;
 using WideVectorX = Eigen::Matrix<WideReal, Eigen::Dynamic, 1>;
 
+/// Rounding of a scalar, or of the type that judges it where that is coarser.
+template <class Scalar>
+WideReal rounding_of() {
+  return std::max(WideReal(std::numeric_limits<Scalar>::epsilon()), std::numeric_limits<WideReal>::epsilon());
+}
+
 /// A problem of the scalar, in long double and without any other change.
 struct WideProblem {
   template <class Scalar>
@@ -271,14 +277,24 @@ bool is_valid(const feeler::QpProblem<Scalar>& problem, const feeler::QpSolution
   return valid;
 }
 
+/// What a solver promises beyond its concept. By default: nearly every problem decided, to the rounding of its scalar.
+struct QpPromise {
+  double tolerance = 5e-13;         ///< of a row, where the solver says `optimal` [m]
+  double stationarity = 0;          ///< relative, besides rounding
+  double least_decided = 0.99;      ///< share of the problems that do not end as `iteration_limit`
+  bool proves_infeasibility = true;  ///< or leaves those problems undecided
+  bool decides_many_rows = true;     ///< every problem of as many rows as there is room for
+};
+
 /// Checks one answer against the problem and against the definition of its status, in long double.
 /// @param scale  typical length; tolerances are relative to it and to the rounding of the scalar
 template <class Scalar>
 void check_answer(const feeler::QpProblem<Scalar>& problem, feeler::QpStatus status,
-                  const feeler::QpSolution<Scalar>& solution, double scale, const std::string& name) {
+                  const feeler::QpSolution<Scalar>& solution, double scale, const std::string& name,
+                  const QpPromise& promise = {}) {
   BOOST_TEST_CONTEXT(name) {
     BOOST_TEST(is_valid(problem, solution));
-    const WideReal epsilon = WideReal(std::numeric_limits<Scalar>::epsilon());
+    const WideReal epsilon = rounding_of<Scalar>();
     const WideProblem wide(problem);
     // Infeasible within this distance: a direction known to epsilon says nothing about what lies farther off.
     const WideReal reach = std::min(1e4L, 1e-5L / epsilon) * WideReal(scale);
@@ -286,8 +302,8 @@ void check_answer(const feeler::QpProblem<Scalar>& problem, feeler::QpStatus sta
       BOOST_TEST(solution.conflict.empty());
       const KktResiduals kkt = kkt_residuals(wide, solution);
       const WideReal length = solution.step.template cast<WideReal>().norm() + WideReal(scale);
-      const WideReal tolerance = 5e-13L + 256 * epsilon * length;
-      BOOST_TEST(kkt.stationarity <= 1e6L * epsilon);
+      const WideReal tolerance = WideReal(promise.tolerance) + 256 * epsilon * length;
+      BOOST_TEST(kkt.stationarity <= WideReal(promise.stationarity) + 1e6L * epsilon);
       BOOST_TEST(kkt.violation <= tolerance);
       BOOST_TEST(kkt.slackness <= tolerance);
       BOOST_TEST(kkt.multiplier >= 0);
@@ -302,7 +318,7 @@ void check_answer(const feeler::QpProblem<Scalar>& problem, feeler::QpStatus sta
                    best.value + price * (2 * tolerance + BruteForceOptimum::rounding_of(best.step)) +
                        1e4L * epsilon * size);
       }
-    } else {
+    } else if (status == feeler::QpStatus::infeasible || promise.least_decided >= 0.99) {
       const BruteForceOptimum optimum(wide, 0);
       BOOST_TEST((!optimum.exists || optimum.step.norm() > 10 * WideReal(scale)));
       if (status == feeler::QpStatus::iteration_limit)
@@ -323,7 +339,7 @@ void check_answer(const feeler::QpProblem<Scalar>& problem, feeler::QpStatus sta
 
 /// Checks a solver against the definition of its answers on random and on special problems.
 template <feeler::QpSolver Solver>
-void check_qp_laws(unsigned seed = 1, int problems_per_family = 300) {
+void check_qp_laws(unsigned seed = 1, int problems_per_family = 300, const QpPromise& promise = {}) {
   using Scalar = typename Solver::Scalar;
   using Problem = feeler::QpProblem<Scalar>;
   using Solution = feeler::QpSolution<Scalar>;
@@ -342,7 +358,7 @@ void check_qp_laws(unsigned seed = 1, int problems_per_family = 300) {
        : status == feeler::QpStatus::iteration_limit ? unfinished
                                                      : infeasible)++;
       check_answer(problem, status, solution, scale,
-                   "family " + std::to_string(family) + " problem " + std::to_string(i));
+                   "family " + std::to_string(family) + " problem " + std::to_string(i), promise);
       // The same input gives the same bits: with a solver that knows it, and with one that knows another.
       BOOST_TEST((solver.solve(problem, again) == status));
       BOOST_TEST(is_same(solution, again));
@@ -351,18 +367,19 @@ void check_qp_laws(unsigned seed = 1, int problems_per_family = 300) {
       BOOST_TEST(is_same(solution, again));
     }
   }
+  BOOST_TEST_MESSAGE(feasible << " optimal, " << infeasible << " infeasible, " << unfinished << " undecided");
   BOOST_TEST(feasible > problems_per_family);
-  BOOST_TEST(infeasible > problems_per_family / 10);
-  BOOST_TEST(unfinished <= problems_per_family / 100);
+  if (promise.proves_infeasibility) BOOST_TEST(infeasible > problems_per_family / 10);
+  BOOST_TEST(unfinished <= (1 - promise.least_decided) * random_problem_families * problems_per_family);
 
   // Without rows the answer is −H⁻¹g; with a row that says nothing too; a row of zeros can not be met.
   Problem problem = random_problem<Scalar>(bits, 0, 1);
   problem.clear_rows();
   const Wide6 free = -(WideProblem(problem).hessian.inverse() * WideProblem(problem).gradient);
-  for (const Scalar bound : {Scalar(0), Scalar(-1)}) {
+  for (const Scalar& bound : {Scalar(0), Scalar(-1)}) {
     BOOST_TEST((solver.solve(problem, solution) == feeler::QpStatus::optimal));
     BOOST_TEST((solution.step.template cast<WideReal>() - free).norm() <=
-               1e6L * WideReal(std::numeric_limits<Scalar>::epsilon()) * free.norm());
+               1e6L * rounding_of<Scalar>() * free.norm());
     BOOST_TEST(solution.active.empty());
     problem.clear_rows();
     problem.add_row(feeler::Vector6<Scalar>::Zero(), bound);
@@ -382,10 +399,12 @@ void check_qp_laws(unsigned seed = 1, int problems_per_family = 300) {
       problem.add_row(contact_row<Scalar>(random_direction(bits), 0.1 * random_vector(bits)),
                       Scalar(-0.1 * fraction(bits)));
     BOOST_TEST(!problem.add_row(feeler::Vector6<Scalar>::Zero(), Scalar(0)));
-    BOOST_TEST((solver.solve(problem, solution) == feeler::QpStatus::optimal));
+    const feeler::QpStatus status = solver.solve(problem, solution);
     BOOST_TEST(is_valid(problem, solution));
+    if (status == feeler::QpStatus::iteration_limit && !promise.decides_many_rows) continue;
+    BOOST_TEST((status == feeler::QpStatus::optimal));
     BOOST_TEST(kkt_residuals(WideProblem(problem), solution).violation <=
-               5e-13L + 256 * WideReal(std::numeric_limits<Scalar>::epsilon()));
+               WideReal(promise.tolerance) + 256 * rounding_of<Scalar>());
   }
 
   // A Hessian that is not positive definite is refused and leaves a step of zero.
@@ -400,7 +419,7 @@ void check_qp_laws(unsigned seed = 1, int problems_per_family = 300) {
   }
 
   // A NaN or an infinity anywhere ends, and leaves a valid answer.
-  for (const Scalar bad : {std::numeric_limits<Scalar>::quiet_NaN(), std::numeric_limits<Scalar>::infinity(),
+  for (const Scalar& bad : {std::numeric_limits<Scalar>::quiet_NaN(), std::numeric_limits<Scalar>::infinity(),
                            -std::numeric_limits<Scalar>::infinity()}) {
     for (int place = 0; place < 100; ++place) {
       BOOST_TEST_CONTEXT("bad value " << bad << " place " << place) {
