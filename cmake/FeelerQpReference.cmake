@@ -1,0 +1,11 @@
+# feeler-exact-qp: the exact QP solver that judges the others: CGAL's where it is installed, else our own in fractions.
+find_package(CGAL QUIET)
+if(CGAL_FOUND)
+  add_library(feeler-exact-qp STATIC ${PROJECT_SOURCE_DIR}/bench/qp/exact_reference_cgal.cpp)
+  target_link_libraries(feeler-exact-qp PRIVATE CGAL::CGAL)
+else()
+  message(STATUS "CGAL is not here: QP solvers are judged by our own in fractions, which takes longer")
+  add_library(feeler-exact-qp STATIC ${PROJECT_SOURCE_DIR}/bench/qp/exact_reference_fractions.cpp)
+endif()
+target_include_directories(feeler-exact-qp PUBLIC ${PROJECT_SOURCE_DIR}/bench ${PROJECT_SOURCE_DIR}/test)
+target_link_libraries(feeler-exact-qp PUBLIC feeler::feeler PRIVATE feeler_development)
