@@ -256,12 +256,24 @@ bool is_same(const feeler::QpSolution<Scalar>& a, const feeler::QpSolution<Scala
   return same;
 }
 
+/// What a solver promises beyond its concept. By default: nearly every problem decided, to the rounding of its scalar.
+struct QpPromise {
+  double tolerance = 5e-13;         ///< of a row, where the solver says `optimal` [m]
+  double stationarity = 0;          ///< relative, besides rounding
+  double least_decided = 0.99;      ///< share of the problems that do not end as `iteration_limit`
+  bool proves_infeasibility = true;  ///< or leaves those problems undecided
+  bool decides_many_rows = true;     ///< every problem of as many rows as there is room for
+  bool names_conflicts = true;       ///< rows that prove `infeasible`
+  int most_iterations = 16;          ///< times the number of rows and eight
+};
+
 /// What holds after every status: the step is finite, multipliers are non-negative, rows are in range and
 /// none is named twice.
 template <class Scalar>
-bool is_valid(const feeler::QpProblem<Scalar>& problem, const feeler::QpSolution<Scalar>& solution) {
+bool is_valid(const feeler::QpProblem<Scalar>& problem, const feeler::QpSolution<Scalar>& solution,
+              const QpPromise& promise = {}) {
   using std::isfinite;
-  bool valid = solution.iterations <= 16 * (problem.row_count + 8);
+  bool valid = solution.iterations <= promise.most_iterations * (problem.row_count + 8);
   for (int i = 0; i < 6; ++i) valid = valid && isfinite(solution.step[i]);
   std::vector<int> rows, conflict;
   for (const auto& active : solution.active) {
@@ -277,15 +289,6 @@ bool is_valid(const feeler::QpProblem<Scalar>& problem, const feeler::QpSolution
   return valid;
 }
 
-/// What a solver promises beyond its concept. By default: nearly every problem decided, to the rounding of its scalar.
-struct QpPromise {
-  double tolerance = 5e-13;         ///< of a row, where the solver says `optimal` [m]
-  double stationarity = 0;          ///< relative, besides rounding
-  double least_decided = 0.99;      ///< share of the problems that do not end as `iteration_limit`
-  bool proves_infeasibility = true;  ///< or leaves those problems undecided
-  bool decides_many_rows = true;     ///< every problem of as many rows as there is room for
-};
-
 /// Checks one answer against the problem and against the definition of its status, in long double.
 /// @param scale  typical length; tolerances are relative to it and to the rounding of the scalar
 template <class Scalar>
@@ -293,7 +296,7 @@ void check_answer(const feeler::QpProblem<Scalar>& problem, feeler::QpStatus sta
                   const feeler::QpSolution<Scalar>& solution, double scale, const std::string& name,
                   const QpPromise& promise = {}) {
   BOOST_TEST_CONTEXT(name) {
-    BOOST_TEST(is_valid(problem, solution));
+    BOOST_TEST(is_valid(problem, solution, promise));
     const WideReal epsilon = rounding_of<Scalar>();
     const WideProblem wide(problem);
     // Infeasible within this distance: a direction known to epsilon says nothing about what lies farther off.
@@ -311,12 +314,15 @@ void check_answer(const feeler::QpProblem<Scalar>& problem, feeler::QpStatus sta
       if (best.exists) {
         WideReal price = 0;  // of the slack, at the multipliers: the best step uses it one way, the answer the other
         for (const auto& active : solution.active) price += WideReal(active.multiplier);
+        // A solver that is not exact may be off its stationary point by its tolerance.
+        const WideReal residual = promise.stationarity > 0 ? wide.hessian.norm() * tolerance : WideReal(0);
         const WideReal size = std::abs(best.value) +
                               std::abs(wide.value(solution.step.template cast<WideReal>())) +
                               wide.gradient.norm() * length;
         BOOST_TEST(wide.value(solution.step.template cast<WideReal>()) <=
                    best.value + price * (2 * tolerance + BruteForceOptimum::rounding_of(best.step)) +
-                       1e4L * epsilon * size);
+                       1e4L * epsilon * size +
+                       3 * residual * (solution.step.template cast<WideReal>() - best.step).norm());
       }
     } else if (status == feeler::QpStatus::infeasible || promise.least_decided >= 0.99) {
       const BruteForceOptimum optimum(wide, 0);
@@ -324,6 +330,7 @@ void check_answer(const feeler::QpProblem<Scalar>& problem, feeler::QpStatus sta
       if (status == feeler::QpStatus::iteration_limit)
         return;  // an honest end, on the brink of infeasibility
       BOOST_TEST_REQUIRE((status == feeler::QpStatus::infeasible));
+      if (!promise.names_conflicts) return;
       WideRows rows(solution.conflict.size(), 6);
       WideVectorX bounds(solution.conflict.size());
       for (int i = 0; i < solution.conflict.size(); ++i) {
@@ -386,10 +393,14 @@ void check_qp_laws(unsigned seed = 1, int problems_per_family = 300, const QpPro
   }
   problem.clear_rows();
   problem.add_row(feeler::Vector6<Scalar>::Zero(), Scalar(1));
-  BOOST_TEST((solver.solve(problem, solution) == feeler::QpStatus::infeasible));
-  BOOST_TEST_REQUIRE(solution.conflict.size() == 1);
-  BOOST_TEST(solution.conflict[0] == 0);
-  BOOST_TEST(is_valid(problem, solution));
+  const feeler::QpStatus impossible = solver.solve(problem, solution);
+  BOOST_TEST((impossible != feeler::QpStatus::optimal));
+  if (promise.names_conflicts) {
+    BOOST_TEST((impossible == feeler::QpStatus::infeasible));
+    BOOST_TEST_REQUIRE(solution.conflict.size() == 1);
+    BOOST_TEST(solution.conflict[0] == 0);
+  }
+  BOOST_TEST(is_valid(problem, solution, promise));
 
   // As many rows as there is room for, all around the target: every one of them is met.
   for (int i = 0; i < 20; ++i) {
@@ -400,7 +411,7 @@ void check_qp_laws(unsigned seed = 1, int problems_per_family = 300, const QpPro
                       Scalar(-0.1 * fraction(bits)));
     BOOST_TEST(!problem.add_row(feeler::Vector6<Scalar>::Zero(), Scalar(0)));
     const feeler::QpStatus status = solver.solve(problem, solution);
-    BOOST_TEST(is_valid(problem, solution));
+    BOOST_TEST(is_valid(problem, solution, promise));
     if (status == feeler::QpStatus::iteration_limit && !promise.decides_many_rows) continue;
     BOOST_TEST((status == feeler::QpStatus::optimal));
     BOOST_TEST(kkt_residuals(WideProblem(problem), solution).violation <=
@@ -415,7 +426,7 @@ void check_qp_laws(unsigned seed = 1, int problems_per_family = 300, const QpPro
     if (i == 2) problem.hessian.row(2).setZero(), problem.hessian.col(2).setZero();
     BOOST_TEST((solver.solve(problem, solution) == feeler::QpStatus::not_positive_definite));
     BOOST_TEST(solution.step.isZero(Scalar(0)));
-    BOOST_TEST(is_valid(problem, solution));
+    BOOST_TEST(is_valid(problem, solution, promise));
   }
 
   // A NaN or an infinity anywhere ends, and leaves a valid answer.
@@ -431,7 +442,7 @@ void check_qp_laws(unsigned seed = 1, int problems_per_family = 300, const QpPro
         if (place % 4 == 2) problem.rows[row][i] = bad;
         if (place % 4 == 3) problem.bounds[row] = bad;
         const feeler::QpStatus status = solver.solve(problem, solution);
-        BOOST_TEST(is_valid(problem, solution));
+        BOOST_TEST(is_valid(problem, solution, promise));
         // Truth: a problem with no number in its objective has no optimum.
         if (place % 4 < 2) BOOST_TEST((status != feeler::QpStatus::optimal));
       }
