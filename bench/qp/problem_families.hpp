@@ -229,7 +229,7 @@ inline const std::vector<Family>& all_families() {
              const Vector normal = feeler_test::random_direction(p.bits()), arm = random_arm(p.bits());
              const double gap = random_gap(p.bits());
              for (int copy = 0; copy < 10; ++copy) {
-               const auto noise = [&] { return 1e-12 * feeler_test::random_vector(p.bits()); };
+               const auto noise = [&]() -> Vector { return 1e-12 * feeler_test::random_vector(p.bits()); };
                p.contact((normal + noise()).normalized(), arm + noise(), gap);
              }
            }
