@@ -34,9 +34,33 @@ struct DeviceSpecification {
 
   std::array<bool, 6> is_sensed = {};  ///< x, y, z, then rotation about x, y, z
   std::array<bool, 6> is_pushed = {};  ///< the same axes: has a motor
+
+  /// Whether any rotation has a motor. A device without is force-only: six-DOF contact, three-DOF display.
+  constexpr bool pushes_torque() const noexcept { return is_pushed[3] || is_pushed[4] || is_pushed[5]; }
+  /// Makes it force-only: no motor turns it, whatever its model usually has.
+  constexpr void lose_torque() noexcept {
+    is_pushed[3] = is_pushed[4] = is_pushed[5] = false;
+    maximum_torque = continuous_torque = rotational_stiffness = 0;
+  }
 };
 
-/// Phantom Premium 3.0/6DOF. Which figures are confirmed, recalled or assumed is said at each one in the source.
+// Presets of known devices. Which figures are confirmed, recalled or assumed is said at each one in the source.
+
 DeviceSpecification phantom_premium_3_0_6dof();
+DeviceSpecification phantom_premium_1_5_6dof();
+DeviceSpecification phantom_premium_1_5_high_force_6dof();
+DeviceSpecification touch();    ///< 3D Systems Touch, once Phantom Omni; force-only
+DeviceSpecification touch_x();  ///< 3D Systems Touch X, once Phantom Desktop; force-only
+
+DeviceSpecification omega_3();   ///< Force Dimension; senses and pushes positions only
+DeviceSpecification omega_6();   ///< force-only
+DeviceSpecification omega_7();   ///< force-only; its gripper is not driven
+DeviceSpecification sigma_7();
+DeviceSpecification lambda_7();
+DeviceSpecification delta_3();   ///< senses and pushes positions only
+DeviceSpecification falcon();    ///< Novint Falcon; senses and pushes positions only
+
+DeviceSpecification virtuose_6d();
+DeviceSpecification virtuose_6d_desktop();
 
 }  // namespace feeler
