@@ -16,6 +16,7 @@ struct DeviceState {
   DevicePose pose;
   std::uint32_t buttons = 0;  ///< bit n is button n, set while pressed
   double time = 0;            ///< when the pose was taken, since `open` [s]
+  double motor_temperature = 0;  ///< of the hottest motor: 0 cold, 1 where the device cuts out; 0 from a device that does not say
 };
 
 /// What a device pushes with: force and torque on the hand, base axes, at the origin of the handle.

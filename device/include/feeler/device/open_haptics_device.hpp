@@ -1,0 +1,50 @@
+// Devices of 3D Systems through OpenHaptics: Phantom Premium, Touch and Touch X.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "feeler/device/clock.hpp"
+#include "feeler/device/device.hpp"
+
+namespace feeler {
+
+/// How to find a device of OpenHaptics.
+struct OpenHapticsSettings {
+  std::vector<std::string> libraries = {"libHD.so", "libHD.so.3.4", "libHD.so.3.0"};  ///< tried in this order
+  std::string device_name;  ///< as its setup program calls it, "Default Device" for example; empty takes the
+                            ///< default one
+};
+
+/// A device behind libHD.so, which is loaded by `open`.
+///
+/// The servo thread of libHD exchanges pose and wrench once a frame; `read` and `write` hand them over
+/// without waiting. So a slow renderer never holds up that thread, and it is a watchdog: from the third frame
+/// without a new wrench on, it pushes nothing. An error of the device silences it at once, until a wrench is
+/// written by somebody who has read of the error.
+///
+/// Millimetres and millinewton metres end here. The torque goes out in base axes (HD_CURRENT_TORQUE), never
+/// as joint torques of the gimbal.
+class OpenHapticsDevice final : public Device {
+ public:
+  /// @param clock  stamps the poses, outlives the device; none is CLOCK_MONOTONIC
+  explicit OpenHapticsDevice(OpenHapticsSettings settings = {}, Clock* clock = nullptr);
+  ~OpenHapticsDevice() override;
+
+  /// Waits up to a second for the first pose. Refuses a device that is not calibrated: its poses would be
+  /// wrong.
+  OpenResult open() override;
+  DeviceStatus read(DeviceState& state) noexcept override;
+  DeviceStatus write(const DeviceWrench& wrench) noexcept override;
+  void close() noexcept override;
+  /// A Phantom Premium 3.0/6DOF until `open` asks the device.
+  const DeviceSpecification& specification() const noexcept override;
+  const char* complaint() const noexcept override;
+
+ private:
+  class Driver;
+  std::unique_ptr<Driver> driver_;
+};
+
+}  // namespace feeler

@@ -1,0 +1,46 @@
+// Devices of Haption through its Virtuose library: Virtuose 6D, 6D Desktop and their relatives.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "feeler/device/clock.hpp"
+#include "feeler/device/device.hpp"
+
+namespace feeler {
+
+/// How to find a device of Haption.
+struct VirtuoseSettings {
+  std::vector<std::string> libraries = {"libvirtuose.so", "libVirtuoseAPI.so"};  ///< tried in this order
+  std::string address = "localhost#5000";  ///< of the controller: host or IP, '#', port
+  double period = 1e-3;                    ///< of the servo loop, told to the controller [s]
+};
+
+/// A device behind libvirtuose.so, which is loaded by `open`; it runs in impedance mode, and `read` and
+/// `write` call it directly.
+///
+/// The library speaks single precision, in the frame x to the user, y right, z up; both end here. Its own
+/// indexing is off: clutching belongs to the workspace map. While its emergency stop is pressed, its power
+/// off or its dead man's switch released, it pushes nothing and every `read` is a warning, so that the force
+/// comes back by the ramp and not at once.
+class VirtuoseDevice final : public Device {
+ public:
+  /// @param clock  stamps the poses, outlives the device; none is CLOCK_MONOTONIC
+  explicit VirtuoseDevice(VirtuoseSettings settings = {}, Clock* clock = nullptr);
+  ~VirtuoseDevice() override;
+
+  OpenResult open() override;
+  DeviceStatus read(DeviceState& state) noexcept override;
+  DeviceStatus write(const DeviceWrench& wrench) noexcept override;
+  void close() noexcept override;
+  /// The library does not say which model it is: a Virtuose 6D, cut to what SOFA lets it push.
+  const DeviceSpecification& specification() const noexcept override;
+  const char* complaint() const noexcept override;
+
+ private:
+  class Driver;
+  std::unique_ptr<Driver> driver_;
+};
+
+}  // namespace feeler

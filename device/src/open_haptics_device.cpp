@@ -1,0 +1,336 @@
+// Joins the servo thread of libHD with the servo loop.
+#include "feeler/device/open_haptics_device.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <thread>
+#include <utility>
+
+#include "feeler/device/latest_value.hpp"
+#include "feeler/device/rotation_matrix.hpp"
+#include "feeler/device/wrench_limit.hpp"
+#include "open_haptics_library.hpp"
+
+namespace feeler {
+namespace {
+
+using namespace open_haptics;
+
+constexpr int patience = 2;  // frames without a new wrench before the device goes silent
+constexpr std::size_t most_motors = 16;
+constexpr double no_push[3] = {0, 0, 0};
+
+/// What the frame hands to `read`.
+struct Sample {
+  DeviceState state;
+  const char* complaint = "";
+  std::int64_t errors = 0;  // counted since `open`
+  bool is_lost = false;
+};
+
+/// What `write` hands to the frame.
+struct Command {
+  DeviceWrench wrench;
+  std::int64_t errors_known = 0;  // to the writer
+};
+
+DeviceSpecification preset_of(const std::string& model) {
+  const auto says = [&model](const char* word) { return model.find(word) != std::string::npos; };
+  if (says("Premium 3")) return phantom_premium_3_0_6dof();
+  if (says("Premium 1.5 H") || says("1.5HF") || says("1.5 High"))
+    return phantom_premium_1_5_high_force_6dof();
+  if (says("Premium")) return phantom_premium_1_5_6dof();
+  if (says("Touch X") || says("Desktop")) return touch_x();
+  return touch();
+}
+
+bool is_plausible(double figure) noexcept {
+  return figure > 0 && figure < 1e6;
+}
+
+}  // namespace
+
+class OpenHapticsDevice::Driver {
+ public:
+  Driver(OpenHapticsSettings settings, Clock* clock)
+      : settings_(std::move(settings)), clock_(clock != nullptr ? *clock : monotonic_clock_) {}
+
+  OpenResult open() {
+    if (is_open_) return {};
+    if (std::string problem = library_.load(settings_.libraries); !problem.empty())
+      return {std::move(problem)};
+    if (std::string problem = claim(); !problem.empty()) {
+      release();
+      return {std::move(problem)};
+    }
+    is_open_ = true;
+    return {};
+  }
+
+  DeviceStatus read(DeviceState& state) noexcept {
+    if (!is_open_) return DeviceStatus::not_open;
+    samples_.fetch(sample_);
+    if (sample_.is_lost) return DeviceStatus::fault;
+    state = sample_.state;
+    const bool complains = sample_.errors != errors_read_;
+    errors_read_ = sample_.errors;
+    return complains ? DeviceStatus::warning : DeviceStatus::ok;
+  }
+
+  DeviceStatus write(const DeviceWrench& wrench) noexcept {
+    if (!is_open_) return DeviceStatus::not_open;
+    const bool is_good = is_finite(wrench);
+    Command command;
+    if (is_good) command.wrench = limited(wrench, specification.maximum_force, specification.maximum_torque);
+    command.errors_known = errors_read_;
+    commands_.store(command);
+    if (sample_.is_lost) return DeviceStatus::fault;
+    return is_good ? DeviceStatus::ok : DeviceStatus::not_finite;
+  }
+
+  void close() noexcept {
+    if (!is_open_) return;
+    commands_.store({});
+    is_open_ = false;
+    release();
+  }
+
+  const char* complaint() const noexcept { return sample_.complaint; }
+
+  DeviceSpecification specification = phantom_premium_3_0_6dof();
+
+ private:
+  /// Everything from the handle to the first pose. @return what went wrong
+  std::string claim() {
+    // What is left of an earlier session; nobody else is here before the scheduler runs.
+    samples_.fetch(sample_);
+    commands_.fetch(command_);
+    sample_ = {};
+    command_ = {};
+    frame_ = {};
+    errors_read_ = 0;
+    frames_unfed_ = 0;
+    opened_at_ = clock_.now();
+    drain_errors();
+    handle_ = library_.init_device(settings_.device_name.empty() ? nullptr : settings_.device_name.c_str());
+    if (const unsigned int error = drain_errors(); error != success || handle_ == invalid_handle) {
+      return "OpenHaptics: the device cannot be opened: " + text_of(error);
+    }
+    library_.make_current_device(handle_);
+    if (std::string problem = ask(); !problem.empty()) return problem;
+    library_.enable(force_output);
+    callback_ = library_.schedule_asynchronous(&Driver::frame_of, this, highest_priority);
+    is_scheduled_ = true;
+    library_.start_scheduler();
+    if (const unsigned int error = drain_errors(); error != success) {
+      return "OpenHaptics: the servo thread cannot be started: " + text_of(error);
+    }
+    for (int wait = 0; wait < 1000; ++wait) {
+      if (samples_.fetch(sample_)) {
+        return sample_.is_lost
+                   ? "OpenHaptics: the device failed with its first pose: " + std::string(sample_.complaint)
+                   : std::string();
+      }
+      std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    }
+    return "OpenHaptics: no pose came within a second: check the cable, and that no other program uses the "
+           "device.";
+  }
+
+  /// The model and its figures; inside a frame, as libHD demands.
+  std::string ask() {
+    library_.begin_frame(handle_);
+    const unsigned int calibration = library_.check_calibration();
+    const char* const model = library_.get_string(device_model_type);
+    int degrees = 3;
+    int rate = 0;
+    double stiffness = 0;
+    double force = 0;
+    double continuous = 0;
+    library_.get_integers(output_degrees, &degrees);
+    library_.get_integers(update_rate, &rate);
+    library_.get_doubles(nominal_max_stiffness, &stiffness);
+    library_.get_doubles(nominal_max_force, &force);
+    library_.get_doubles(nominal_continuous_force, &continuous);
+    drain_errors();
+    double temperatures[most_motors] = {};
+    library_.get_doubles(motor_temperature, temperatures);
+    tells_temperature_ = drain_errors() == success;
+    library_.end_frame(handle_);
+    if (const unsigned int error = drain_errors(); error >= first_device_error) {
+      return "OpenHaptics: the device does not say what it is: " + text_of(error);
+    }
+    if (calibration != calibrated) {
+      return std::string("OpenHaptics: the device is not calibrated: ") +
+             (calibration == needs_manual_input
+                  ? "put the stylus into its inkwell, or hold the arm as the manual shows, "
+                  : "move the handle through its workspace and put it to rest, ") +
+             "run the calibration of the driver's setup program, then start again.";
+    }
+    const std::string name = model != nullptr ? model : "";
+    specification = preset_of(name);
+    if (!name.empty()) specification.name = name;
+    if (is_plausible(stiffness))
+      specification.stiffness = std::min(specification.stiffness, 1000 * stiffness);
+    if (is_plausible(force)) specification.maximum_force = force;
+    if (is_plausible(continuous))
+      specification.continuous_force = std::min(continuous, specification.maximum_force);
+    if (rate > 0) specification.nominal_rate = rate;
+    if (degrees < 6) specification.lose_torque();
+    return {};
+  }
+
+  void release() noexcept {
+    if (is_scheduled_) {
+      library_.stop_scheduler();
+      library_.unschedule(callback_);
+      is_scheduled_ = false;
+    }
+    if (handle_ != invalid_handle) {
+      library_.begin_frame(handle_);
+      library_.set_doubles(current_force, no_push);
+      if (specification.pushes_torque()) library_.set_doubles(current_torque, no_push);
+      library_.end_frame(handle_);
+      library_.disable(force_output);
+      library_.disable_device(handle_);
+      handle_ = invalid_handle;
+    }
+    drain_errors();
+  }
+
+  static unsigned int frame_of(void* driver) noexcept { return static_cast<Driver*>(driver)->frame(); }
+
+  /// One frame, on the servo thread of libHD.
+  unsigned int frame() noexcept {
+    library_.begin_frame(handle_);
+    double transform[16] = {};
+    int buttons = 0;
+    library_.get_doubles(current_transform, transform);
+    library_.get_integers(current_buttons, &buttons);
+    if (tells_temperature_) {
+      double temperatures[most_motors] = {};
+      library_.get_doubles(motor_temperature, temperatures);
+      frame_.state.motor_temperature = *std::max_element(temperatures, temperatures + most_motors);
+    }
+    note_errors();
+    if (!take_pose(transform))
+      lose("The device reports a pose that is none: check its encoders, then calibrate it.");
+    frame_.state.buttons = std::uint32_t(buttons);
+    frame_.state.time = double(clock_.now() - opened_at_) * 1e-9;
+
+    frames_unfed_ = commands_.fetch(command_) ? 0 : frames_unfed_ + 1;
+    const bool is_fed =
+        frames_unfed_ <= patience && !frame_.is_lost && command_.errors_known == frame_.errors;
+    push(is_fed ? command_.wrench : DeviceWrench{});
+    library_.end_frame(handle_);
+    note_errors();
+    samples_.store(frame_);
+    return callback_continues;
+  }
+
+  void push(const DeviceWrench& wrench) noexcept {
+    library_.set_doubles(current_force, wrench.force);
+    if (!specification.pushes_torque()) return;
+    const double millinewton_metres[3] = {1000 * wrench.torque[0], 1000 * wrench.torque[1],
+                                          1000 * wrench.torque[2]};
+    library_.set_doubles(current_torque, millinewton_metres);
+  }
+
+  bool take_pose(const double (&transform)[16]) noexcept {
+    double rotation[3][3];
+    for (int row = 0; row < 3; ++row) {
+      for (int column = 0; column < 3; ++column) rotation[row][column] = transform[4 * column + row];
+      if (!std::isfinite(transform[12 + row])) return false;
+    }
+    if (!nearest_rotation(rotation, frame_.state.pose.orientation)) return false;
+    for (int axis = 0; axis < 3; ++axis) frame_.state.pose.position[axis] = 1e-3 * transform[12 + axis];
+    return true;
+  }
+
+  void note_errors() noexcept {
+    const unsigned int code = drain_errors();
+    if (code == success) return;
+    const char* text = sentence_of(code);
+    if (text == nullptr) text = library_.get_error_string(code);
+    if (text == nullptr) text = "libHD reports an error that it has no words for.";
+    const bool goes_on = code >= first_force_error && code < first_device_error;
+    if (!goes_on) return lose(text);
+    ++frame_.errors;
+    if (!frame_.is_lost) frame_.complaint = text;
+  }
+
+  void lose(const char* complaint) noexcept {
+    ++frame_.errors;
+    if (frame_.is_lost) return;
+    frame_.is_lost = true;
+    frame_.complaint = complaint;
+  }
+
+  /// The worst error that libHD has in store; the store is emptied.
+  unsigned int drain_errors() noexcept {
+    unsigned int worst = success;
+    for (int i = 0; i < 64; ++i) {
+      const unsigned int code = library_.get_error().code;
+      if (code == success) break;
+      const bool is_device = code >= first_device_error;
+      if (worst == success || (is_device && worst < first_device_error)) worst = code;
+    }
+    return worst;
+  }
+
+  std::string text_of(unsigned int code) const {
+    if (code == success)
+      return "libHD gave no handle: run the setup program of its driver and choose a default device.";
+    if (const char* const text = sentence_of(code)) return text;
+    const char* const text = library_.get_error_string(code);
+    return text != nullptr ? "libHD says: " + std::string(text) + "." : "libHD does not say why.";
+  }
+
+  OpenHapticsSettings settings_;
+  MonotonicClock monotonic_clock_;
+  Clock& clock_;
+  Library library_;
+  Handle handle_ = invalid_handle;
+  unsigned long callback_ = 0;
+  bool is_scheduled_ = false;
+  bool is_open_ = false;
+  bool tells_temperature_ = false;
+  std::int64_t opened_at_ = 0;
+
+  LatestValue<Sample> samples_;    // from the frame to `read`
+  LatestValue<Command> commands_;  // from `write` to the frame
+
+  Sample sample_;                 // of the thread that reads and writes
+  std::int64_t errors_read_ = 0;  // of the same
+
+  Sample frame_;          // of the servo thread of libHD
+  Command command_;       // of the same
+  int frames_unfed_ = 0;  // of the same
+};
+
+OpenHapticsDevice::OpenHapticsDevice(OpenHapticsSettings settings, Clock* clock)
+    : driver_(std::make_unique<Driver>(std::move(settings), clock)) {}
+OpenHapticsDevice::~OpenHapticsDevice() {
+  close();
+}
+OpenResult OpenHapticsDevice::open() {
+  return driver_->open();
+}
+DeviceStatus OpenHapticsDevice::read(DeviceState& state) noexcept {
+  return driver_->read(state);
+}
+DeviceStatus OpenHapticsDevice::write(const DeviceWrench& wrench) noexcept {
+  return driver_->write(wrench);
+}
+void OpenHapticsDevice::close() noexcept {
+  driver_->close();
+}
+const DeviceSpecification& OpenHapticsDevice::specification() const noexcept {
+  return driver_->specification;
+}
+const char* OpenHapticsDevice::complaint() const noexcept {
+  return driver_->complaint();
+}
+
+}  // namespace feeler

@@ -1,0 +1,310 @@
+// The driver of OpenHaptics against a library that stands in for libHD.so: units, frames, and every fault.
+#include <boost/test/unit_test.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <string>
+
+#include "feeler/device/open_haptics_device.hpp"
+#include "stand_in/open_haptics_stand_in.hpp"
+#include "stand_in/stand_in.hpp"
+
+using feeler::DeviceState;
+using feeler::DeviceStatus;
+using feeler::DeviceWrench;
+using feeler::OpenHapticsDevice;
+
+namespace {
+
+feeler_test::OpenHapticsStandIn& fresh() {
+  return feeler_test::stand_in<feeler_test::OpenHapticsStandIn>(FEELER_OPEN_HAPTICS_STAND_IN);
+}
+
+feeler::OpenHapticsSettings settings() {
+  return {{FEELER_OPEN_HAPTICS_STAND_IN}, ""};
+}
+
+bool is_silent(const feeler_test::OpenHapticsStandIn& hd) {
+  const auto is_zero = [](double component) { return component == 0; };
+  return std::all_of(hd.force, hd.force + 3, is_zero) && std::all_of(hd.torque, hd.torque + 3, is_zero);
+}
+
+bool says(const std::string& sentence, const char* words) {
+  return sentence.find(words) != std::string::npos;
+}
+
+constexpr DeviceWrench some_push{{1, -2, 3}, {0.01, 0.02, -0.03}};
+
+/// One tick of the servo loop between two frames of the device.
+DeviceStatus push_once(OpenHapticsDevice& device, feeler_test::OpenHapticsStandIn& hd) {
+  DeviceState state;
+  const DeviceStatus status = device.read(state);
+  device.write(some_push);
+  hd.tick();
+  return status;
+}
+
+}  // namespace
+
+BOOST_AUTO_TEST_SUITE(open_haptics_device)
+
+BOOST_AUTO_TEST_CASE(millimetres_in_columns_become_metres_and_a_quaternion) {
+  auto& hd = fresh();
+  // A quarter turn about z, which takes x to y: its first column is y. Row by row it would be the opposite
+  // turn.
+  const double quarter_turn[16] = {0, 1, 0, 0, -1, 0, 0, 0, 0, 0, 1, 0, 120, -30, 7.5, 1};
+  std::copy(quarter_turn, quarter_turn + 16, hd.transform);
+  hd.buttons = 5;
+  OpenHapticsDevice device(settings());
+  const auto opened = device.open();
+  BOOST_REQUIRE_MESSAGE(bool(opened), opened.problem);
+  DeviceState state;
+  BOOST_TEST((device.read(state) == DeviceStatus::ok));
+  BOOST_TEST(state.pose.position[0] == 0.120, boost::test_tools::tolerance(1e-15));
+  BOOST_TEST(state.pose.position[1] == -0.030, boost::test_tools::tolerance(1e-15));
+  BOOST_TEST(state.pose.position[2] == 0.0075, boost::test_tools::tolerance(1e-15));
+  BOOST_TEST(state.pose.orientation[0] == std::sqrt(0.5), boost::test_tools::tolerance(1e-15));
+  BOOST_TEST(state.pose.orientation[3] == std::sqrt(0.5), boost::test_tools::tolerance(1e-15));
+  BOOST_TEST(state.pose.orientation[1] == 0);
+  BOOST_TEST(state.pose.orientation[2] == 0);
+  BOOST_TEST(state.buttons == 5u);
+  BOOST_TEST(hd.broken_rules == 0);
+}
+
+BOOST_AUTO_TEST_CASE(a_skewed_rotation_becomes_a_unit_quaternion) {
+  auto& hd = fresh();
+  hd.transform[0] = 1.01;
+  hd.transform[1] = 0.02;
+  OpenHapticsDevice device(settings());
+  BOOST_REQUIRE(bool(device.open()));
+  DeviceState state;
+  device.read(state);
+  const double* q = state.pose.orientation;
+  BOOST_TEST(q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3] == 1, boost::test_tools::tolerance(1e-15));
+}
+
+BOOST_AUTO_TEST_CASE(newton_metres_become_millinewton_metres_in_base_axes_and_never_joint_torques) {
+  auto& hd = fresh();
+  OpenHapticsDevice device(settings());
+  BOOST_REQUIRE(bool(device.open()));
+  push_once(device, hd);
+  for (int i = 0; i < 3; ++i) {
+    BOOST_TEST(hd.force[i] == some_push.force[i]);
+    BOOST_TEST(hd.torque[i] == 1000 * some_push.torque[i], boost::test_tools::tolerance(1e-15));
+    BOOST_TEST(hd.joint_torque[i] == 0);
+  }
+  BOOST_TEST(hd.is_output_on);
+  BOOST_TEST(hd.broken_rules == 0);
+}
+
+BOOST_AUTO_TEST_CASE(the_device_says_its_own_figures) {
+  fresh();
+  OpenHapticsDevice device(settings());
+  BOOST_REQUIRE(bool(device.open()));
+  const auto& figures = device.specification();
+  BOOST_TEST(figures.name == "PHANTOM Premium 3.0");
+  BOOST_TEST(figures.maximum_force == 20);      // the stand-in's
+  BOOST_TEST(figures.continuous_force == 2.5);  // the stand-in's
+  BOOST_TEST(figures.stiffness == 1000);        // 1 N/mm
+  BOOST_TEST(figures.pushes_torque());
+}
+
+BOOST_AUTO_TEST_CASE(a_device_with_three_motors_is_force_only_and_is_sent_no_torque) {
+  auto& hd = fresh();
+  hd.model = "Touch";
+  hd.output_degrees = 3;
+  OpenHapticsDevice device(settings());
+  BOOST_REQUIRE(bool(device.open()));
+  BOOST_TEST(!device.specification().pushes_torque());
+  BOOST_TEST(device.specification().maximum_torque == 0);
+  BOOST_TEST((push_once(device, hd) == DeviceStatus::ok));
+  DeviceState state;
+  BOOST_TEST((device.read(state) == DeviceStatus::ok));  // a torque would have been an error
+  BOOST_TEST(hd.force[2] == 3);
+}
+
+BOOST_AUTO_TEST_CASE(a_missing_library_is_said_with_the_words_of_the_linker_and_the_remedy) {
+  OpenHapticsDevice device(feeler::OpenHapticsSettings{{"/nowhere/libHD.so"}, ""});
+  const auto opened = device.open();
+  BOOST_TEST(!opened);
+  BOOST_TEST(says(opened.problem, "/nowhere/libHD.so: cannot open shared object file"));
+  BOOST_TEST(says(opened.problem, "install OpenHaptics"));
+  DeviceState state;
+  BOOST_TEST((device.read(state) == DeviceStatus::not_open));
+  BOOST_TEST((device.write({}) == DeviceStatus::not_open));
+}
+
+BOOST_AUTO_TEST_CASE(a_missing_function_is_named) {
+  OpenHapticsDevice device(
+      feeler::OpenHapticsSettings{{FEELER_OPEN_HAPTICS_STAND_IN_OF_AN_OLDER_VERSION}, ""});
+  const auto opened = device.open();
+  BOOST_TEST(!opened);
+  BOOST_TEST(says(opened.problem, "has no function hdCheckCalibration"));
+}
+
+BOOST_AUTO_TEST_CASE(a_device_that_cannot_start_is_refused_with_a_sentence_and_left_released) {
+  struct Fault {
+    void (*cause)(feeler_test::OpenHapticsStandIn&);
+    const char* words;
+  };
+  const Fault faults[] = {
+      {[](auto& hd) { hd.error_at_init = 0x302; }, "check its power and cable"},
+      {[](auto& hd) { hd.error_at_init = 0x600; }, "licence"},
+      {[](auto& hd) { hd.error_at_init = 0x301; }, "in use already"},
+      {[](auto& hd) { hd.error_at_init = 0x777; }, "an error in the words of libHD"},
+      {[](auto& hd) { hd.error_at_start = 0x304; }, "servo timer"},
+      {[](auto& hd) { hd.calibration = 0x5001; }, "not calibrated"},
+      {[](auto& hd) { hd.calibration = 0x5002; }, "inkwell"},
+      {[](auto& hd) { hd.never_calls_back = true; }, "no pose came within a second"},
+      {[](auto& hd) { std::fill(hd.transform, hd.transform + 16, 0.0); }, "a pose that is none"},
+  };
+  for (const Fault& fault : faults) {
+    auto& hd = fresh();
+    fault.cause(hd);
+    OpenHapticsDevice device(settings());
+    const auto opened = device.open();
+    BOOST_TEST(!opened);
+    BOOST_TEST(says(opened.problem, fault.words), opened.problem);
+    BOOST_TEST(opened.problem.back() == '.');
+    BOOST_TEST(!hd.is_initialised);
+    BOOST_TEST(!hd.is_scheduler_running);
+    BOOST_TEST(!hd.is_output_on);
+    BOOST_TEST(is_silent(hd));
+    BOOST_TEST(hd.broken_rules == 0);
+  }
+}
+
+BOOST_AUTO_TEST_CASE(force_errors_silence_the_device_by_the_next_frame_are_told_once_and_pass) {
+  for (const unsigned int error : {0x200u, 0x201u, 0x202u, 0x203u, 0x204u}) {
+    for (const bool after_push : {false, true}) {
+      auto& hd = fresh();
+      OpenHapticsDevice device(settings());
+      BOOST_REQUIRE(bool(device.open()));
+      push_once(device, hd);
+      BOOST_REQUIRE(!is_silent(hd));
+      (after_push ? hd.error_after_push : hd.error_in_next_frame) = error;
+      push_once(device, hd);  // the frame with the error
+      if (after_push)
+        push_once(device, hd);  // told by this read; the wrench follows that knows of it
+      else
+        BOOST_TEST(is_silent(hd));  // in the same frame
+      DeviceState state;
+      if (!after_push) BOOST_TEST((device.read(state) == DeviceStatus::warning));
+      BOOST_TEST(says(device.complaint(), "(0x020"), device.complaint());
+      BOOST_TEST((device.read(state) == DeviceStatus::ok));
+      device.write(some_push);
+      hd.tick();
+      BOOST_TEST(!is_silent(hd));  // whoever read of the error may push again
+    }
+  }
+}
+
+BOOST_AUTO_TEST_CASE(a_force_written_by_who_has_not_read_of_an_error_is_not_pushed) {
+  auto& hd = fresh();
+  OpenHapticsDevice device(settings());
+  BOOST_REQUIRE(bool(device.open()));
+  push_once(device, hd);
+  hd.error_after_push = 0x202;
+  hd.tick();
+  for (int i = 0; i < 5; ++i) {
+    device.write(some_push);
+    hd.tick();
+    BOOST_TEST(is_silent(hd));
+  }
+}
+
+BOOST_AUTO_TEST_CASE(a_lost_device_is_a_fault_for_good_and_silent) {
+  for (const unsigned int error : {0x300u, 0x302u, 0x101u}) {
+    auto& hd = fresh();
+    OpenHapticsDevice device(settings());
+    BOOST_REQUIRE(bool(device.open()));
+    push_once(device, hd);
+    hd.error_in_next_frame = error;
+    push_once(device, hd);
+    BOOST_TEST(is_silent(hd));
+    for (int i = 0; i < 5; ++i) {
+      DeviceState state;
+      BOOST_TEST((device.read(state) == DeviceStatus::fault));
+      BOOST_TEST((device.write(some_push) == DeviceStatus::fault));
+      hd.tick();
+      BOOST_TEST(is_silent(hd));
+    }
+    BOOST_TEST(std::string(device.complaint()) != "");
+  }
+}
+
+BOOST_AUTO_TEST_CASE(a_loop_that_stalls_is_silenced_within_three_frames) {
+  auto& hd = fresh();
+  OpenHapticsDevice device(settings());
+  BOOST_REQUIRE(bool(device.open()));
+  push_once(device, hd);
+  hd.tick();
+  hd.tick();
+  BOOST_TEST(!is_silent(hd));  // two frames without a wrench: within the jitter of a loop
+  hd.tick();
+  BOOST_TEST(is_silent(hd));
+  push_once(device, hd);
+  BOOST_TEST(!is_silent(hd));
+}
+
+BOOST_AUTO_TEST_CASE(a_pose_that_is_none_is_a_fault) {
+  auto& hd = fresh();
+  OpenHapticsDevice device(settings());
+  BOOST_REQUIRE(bool(device.open()));
+  push_once(device, hd);
+  hd.transform[13] = std::numeric_limits<double>::quiet_NaN();
+  push_once(device, hd);
+  BOOST_TEST(is_silent(hd));
+  DeviceState state;
+  BOOST_TEST((device.read(state) == DeviceStatus::fault));
+}
+
+BOOST_AUTO_TEST_CASE(a_wrench_that_is_not_finite_is_no_push) {
+  auto& hd = fresh();
+  OpenHapticsDevice device(settings());
+  BOOST_REQUIRE(bool(device.open()));
+  push_once(device, hd);
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  BOOST_TEST((device.write({{nan, 0, 0}, {0, 0, 0}}) == DeviceStatus::not_finite));
+  hd.tick();
+  BOOST_TEST(is_silent(hd));
+}
+
+BOOST_AUTO_TEST_CASE(the_hottest_motor_is_told_by_those_that_measure_it) {
+  auto& hd = fresh();
+  hd.temperatures[4] = 0.7;
+  DeviceState state;
+  {
+    OpenHapticsDevice device(settings());
+    BOOST_REQUIRE(bool(device.open()));
+    device.read(state);
+    BOOST_TEST(state.motor_temperature == 0.7);
+  }
+  hd.reset();
+  hd.has_no_temperature = true;
+  OpenHapticsDevice device(settings());
+  BOOST_REQUIRE(bool(device.open()));
+  BOOST_TEST((push_once(device, hd) == DeviceStatus::ok));
+  BOOST_TEST((device.read(state) == DeviceStatus::ok));
+  BOOST_TEST(state.motor_temperature == 0);
+}
+
+BOOST_AUTO_TEST_CASE(closing_lets_go_and_opening_again_starts_afresh) {
+  auto& hd = fresh();
+  OpenHapticsDevice device(settings());
+  for (int session = 0; session < 3; ++session) {
+    BOOST_REQUIRE(bool(device.open()));
+    BOOST_TEST(is_silent(hd));  // nothing of the session before
+    push_once(device, hd);
+    BOOST_TEST(!is_silent(hd));
+    device.close();
+    device.close();
+    BOOST_TEST(is_silent(hd));
+    BOOST_TEST(!hd.is_initialised);
+    BOOST_TEST(hd.broken_rules == 0);
+  }
+}
+
+BOOST_AUTO_TEST_SUITE_END()

@@ -1,0 +1,114 @@
+// Stands in for libdhd.so: the same symbols, over a device that has the faults it is told to have.
+#include "force_dimension_stand_in.hpp"
+
+#include <algorithm>
+#include <initializer_list>
+
+namespace {
+
+constexpr char identity = 3;  // not the first, so that a driver that forgets it is found out
+constexpr int time_guard = 1;
+constexpr int saturated = 2;
+
+feeler_test::ForceDimensionStandIn device;
+
+/// 0, or −1 for a device that is not there.
+int answer_for(char id) {
+  if (id != identity) ++device.wrong_ids;
+  return device.is_unplugged || !device.is_open || id != identity ? -1 : 0;
+}
+
+void reset() {
+  auto* const same_reset = device.reset;
+  device = {};
+  device.reset = same_reset;
+}
+
+bool is_any_of(int type, std::initializer_list<int> types) {
+  return std::find(types.begin(), types.end(), type) != types.end();
+}
+
+}  // namespace
+
+extern "C" {
+
+feeler_test::ForceDimensionStandIn* feeler_stand_in() {
+  device.reset = &reset;
+  return &device;
+}
+
+int dhdOpen() {
+  if (device.refuses_to_open || device.device_count == 0) return -1;
+  device.is_open = true;
+  return identity;
+}
+
+int dhdClose(char id) {
+  const int answer = answer_for(id);
+  device.is_open = false;
+  std::fill(device.force, device.force + 3, 0.0);
+  std::fill(device.torque, device.torque + 3, 0.0);
+  return answer;
+}
+
+int dhdGetDeviceCount() {
+  return device.device_count;
+}
+int dhdGetSystemType(char id) {
+  return answer_for(id) < 0 ? -1 : device.system_type;
+}
+bool dhdHasWrist(char) {
+  return !is_any_of(device.system_type, {33, 60, 63, 203, 206});
+}
+bool dhdHasActiveWrist(char) {
+  return is_any_of(device.system_type, {104, 105, 108, 109});
+}
+
+int dhdGetPositionAndOrientationFrame(double* x, double* y, double* z, double (*frame)[3], char id) {
+  if (answer_for(id) < 0) return -1;
+  if (device.has_nothing_new) return time_guard;
+  *x = device.position[0];
+  *y = device.position[1];
+  *z = device.position[2];
+  std::copy(&device.frame[0][0], &device.frame[0][0] + 9, &frame[0][0]);
+  return 0;
+}
+
+unsigned int dhdGetButtonMask(char) {
+  return device.buttons;
+}
+
+int dhdSetForceAndTorque(double fx, double fy, double fz, double tx, double ty, double tz, char id) {
+  const int answer = answer_for(id);
+  // A device that is unplugged holds what it was told last, for the worst case; its amplifiers lose power in
+  // truth.
+  if (device.is_unplugged) return -1;
+  const double force[3] = {fx, fy, fz};
+  const double torque[3] = {tx, ty, tz};
+  std::copy(force, force + 3, device.force);
+  std::copy(torque, torque + 3, device.torque);
+  return answer < 0 ? answer : (device.is_saturated ? saturated : 0);
+}
+
+int dhdSetMaxForce(double limit, char id) {
+  device.maximum_force = limit;
+  return answer_for(id);
+}
+
+int dhdSetGravityCompensation(int value, char id) {
+  device.compensates_gravity = value != 0;
+  return answer_for(id);
+}
+
+int dhdEnableForce(unsigned char value, char id) {
+  if (device.refuses_force && value != 0) return -1;
+  device.is_force_on = value != 0;
+  return answer_for(id);
+}
+
+#ifndef FEELER_STAND_IN_LACKS_A_FUNCTION
+const char* dhdErrorGetLastStr() {
+  return device.is_unplugged ? "communication error" : "device not ready";
+}
+#endif
+}

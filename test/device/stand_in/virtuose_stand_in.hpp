@@ -1,0 +1,33 @@
+// The controls of the library that stands in for libvirtuose.so: what its hand does, which faults it has, and
+// what its motors were told.
+#pragma once
+
+namespace feeler_test {
+
+/// One for the whole process; used from one thread.
+struct VirtuoseStandIn {
+  // The hand, in the maker's frame: x to the user, y right, z up.
+  float pose[7] = {0, 0, 0, 0, 0, 0, 1};  // x, y, z [m], then the quaternion x, y, z, w
+  int buttons[2] = {0, 0};
+
+  // Faults.
+  bool refuses_to_open = false;
+  bool refuses_impedance = false;
+  bool is_unplugged = false;
+  bool is_emergency_stopped = false;
+  bool is_held = true;
+
+  // The motors.
+  float wrench[6] = {0, 0, 0, 0, 0, 0};  // [N], [N·m]
+  float saturation[2] = {0, 0};          // [N], [N·m]
+  float time_step = 0;                   // [s]
+  int command_type = 0;
+  int indexing_mode = 0;
+  bool is_powered = false;
+  bool is_open = false;
+  const char* address = "";
+
+  void (*reset)() = nullptr;
+};
+
+}  // namespace feeler_test
