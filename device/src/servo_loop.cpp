@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "feeler/core/requirement.hpp"
+#include "feeler/device/session_recorder.hpp"
 
 namespace feeler {
 
@@ -19,6 +20,13 @@ ServoLoop::ServoLoop(const ServoSettings& settings, Callback callback, Clock* cl
   if (settings.rate > 0) report_.period = std::llround(1e9 / settings.rate);
 }
 
+ServoLoop::ServoLoop(const ServoSettings& settings, Device& device, Render render, Clock* clock)
+    : ServoLoop(settings, [this](const ServoTick& tick) { return render_to_device(tick); }, clock) {
+  if (!render) refuse("servo loop: the renderer is empty; give a callable from a ServoTick and a DeviceState to a DeviceWrench");
+  device_ = &device;
+  render_ = std::move(render);
+}
+
 ServoLoop::~ServoLoop() {
   stop();
   if (thread_.joinable()) thread_.join();
@@ -26,6 +34,16 @@ ServoLoop::~ServoLoop() {
 
 const RealTimeSetup& ServoLoop::start() {
   if (is_started_) refuse("servo loop: it was started before; make another one to run again");
+  if (device_ != nullptr) {
+    const DeviceSpecification& device = device_->specification();
+    force_tick_.period = report_.period > 0 ? double(report_.period) * 1e-9 : 1 / device.nominal_rate;
+    const ForceLimits limits = settings_.force_limits.value_or(limits_of(device, force_tick_.period));
+    if (!(limits.latest_tick > force_tick_.period)) {
+      refuse("servo loop: the latest tick of the force limits must be longer than the period, or every tick is late");
+    }
+    safety_ = std::make_unique<ForceSafety>(limits, device);
+    if (settings_.recorder != nullptr) settings_.recorder->describe(device, limits);
+  }
   is_started_ = true;
   is_running_.store(true, std::memory_order_release);
   thread_ = std::thread([this] { run(); });
@@ -55,7 +73,46 @@ void ServoLoop::run() {
   } catch (...) {
     report_.problem = "The callback threw something that is no std::exception, so the loop ended.";
   }
+  let_go();
   is_running_.store(false, std::memory_order_release);
+}
+
+bool ServoLoop::render_to_device(const ServoTick& tick) {
+  const DeviceStatus status = device_->read(force_tick_.state);
+  // A device that failed to push stays failed, even if it can still be read.
+  if (force_tick_.status != DeviceStatus::fault) force_tick_.status = status;
+  const bool has_pose = force_tick_.status == DeviceStatus::ok || force_tick_.status == DeviceStatus::warning;
+  force_tick_.wanted = has_pose ? render_(tick, force_tick_.state) : DeviceWrench{};
+  force_tick_.request = force_request_.exchange(ForceRequest::none, std::memory_order_relaxed);
+  force_tick_.now = double(clock_.now()) * 1e-9;
+
+  const DeviceWrench pushed = safety_->step(force_tick_);
+  const DeviceStatus written = device_->write(pushed);
+  force_phase_.store(safety_->phase(), std::memory_order_relaxed);
+  force_fault_.store(safety_->fault(), std::memory_order_relaxed);
+  if (settings_.recorder != nullptr) settings_.recorder->add({force_tick_, pushed, safety_->phase(), safety_->fault()});
+  if (written == DeviceStatus::fault || written == DeviceStatus::not_open) force_tick_.status = DeviceStatus::fault;
+  return force_tick_.status != DeviceStatus::fault && force_tick_.status != DeviceStatus::not_open;
+}
+
+void ServoLoop::let_go() noexcept {
+  if (device_ == nullptr) return;
+  device_->write({});
+  const bool is_lost = force_tick_.status == DeviceStatus::fault || force_tick_.status == DeviceStatus::not_open;
+  if (is_lost && safety_->fault() != ForceFault::device_lost) {  // it failed to push, and no tick has told the safety
+    safety_->step(force_tick_);
+    force_phase_.store(safety_->phase(), std::memory_order_relaxed);
+    force_fault_.store(safety_->fault(), std::memory_order_relaxed);
+  }
+  report_.force = safety_->report();
+  if (is_lost) {
+    report_.problem = std::string("The device was lost, so the force is off and the loop ended. ") + device_->complaint();
+  }
+}
+
+void ServoLoop::restart_force() noexcept {
+  ForceRequest nothing = ForceRequest::none;
+  force_request_.compare_exchange_strong(nothing, ForceRequest::restart, std::memory_order_relaxed);
 }
 
 void ServoLoop::loop() {

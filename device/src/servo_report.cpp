@@ -15,6 +15,19 @@ void write_tail(std::ostream& out, const char* name, const Histogram& histogram)
       << microseconds(histogram.maximum()) << "\n";
 }
 
+void write_force(std::ostream& out, const ForceReport& force) {
+  for (int fault = 1; fault < force_faults; ++fault) {
+    const std::int64_t ticks = force.ticks_with[std::size_t(fault)];
+    if (ticks > 0) out << "force: " << to_string(ForceFault(fault)) << " (" << ticks << " ticks)\n";
+  }
+  if (force.ticks_shortened > 0) out << "force: shortened to what the device can push in " << force.ticks_shortened << " ticks\n";
+  if (force.ticks_slowed > 0) out << "force: growth slowed in " << force.ticks_slowed << " ticks\n";
+  if (force.ticks_without_torque > 0) {
+    out << "torque: the device has no motors for it; dropped in " << force.ticks_without_torque << " ticks, at most "
+        << force.peak_lost_torque << " N m\n";
+  }
+}
+
 }  // namespace
 
 std::string to_string(const RealTimeSetup& setup) {
@@ -35,6 +48,7 @@ std::string to_string(const ServoReport& report) {
   out << "ticks: " << report.ticks << ", missed deadlines: " << report.missed << "\n";
   write_tail(out, "wake-up latency", report.wake_up_latency);
   write_tail(out, "compute time", report.compute_time);
+  write_force(out, report.force);
   if (!report.problem.empty()) out << report.problem << "\n";
   return out.str();
 }

@@ -5,19 +5,28 @@
 #include <cstdint>
 #include <functional>
 #include <latch>
+#include <memory>
+#include <optional>
 #include <thread>
 
 #include "feeler/device/clock.hpp"
+#include "feeler/device/device.hpp"
+#include "feeler/device/force_safety.hpp"
 #include "feeler/device/real_time.hpp"
 #include "feeler/device/servo_report.hpp"
 
 namespace feeler {
+
+class SessionRecorder;
 
 /// Settings of a `ServoLoop`.
 struct ServoSettings {
   double rate = 1000;             ///< ticks a second [Hz]; 0 runs as fast as it can, without waiting
   std::int64_t tick_limit = 0;    ///< ends after so many ticks; 0 runs until stopped
   RealTimeRequest real_time = {};  ///< a loop that does not wait is not given SCHED_FIFO: it would freeze its processor
+
+  std::optional<ForceLimits> force_limits = {};  ///< of a loop with a device; none are those that suit the device
+  SessionRecorder* recorder = nullptr;           ///< of a loop with a device: takes every tick; outlives the loop
 };
 
 /// What a callback is told about its tick.
@@ -29,6 +38,9 @@ struct ServoTick {
 
 /// Runs a callback at a rate, with absolute deadlines, on a thread of its own.
 ///
+/// With a device a tick is: read, render, `ForceSafety`, write. The safety is always on. Whatever ends the loop, a force of zero is the last
+/// thing written; a device that is lost ends it.
+///
 /// A tick that ends after the next deadline makes the loop skip every deadline that has passed, and counts them: catching up would push
 /// a device with old poses. After `start` returns, the loop itself does not allocate, lock or do I/O; the callback must not either.
 class ServoLoop {
@@ -36,20 +48,35 @@ class ServoLoop {
   /// Returns whether to go on. If it throws, the loop ends and the report says so.
   using Callback = std::function<bool(const ServoTick&)>;
 
-  /// Refuses (`std::invalid_argument`) an empty callback and a rate other than 0 outside 0.001 to 1e9 Hz.
+  /// The wrench that the hand should feel at this pose. It must not allocate, lock or do I/O; if it throws, the loop ends.
+  using Render = std::function<DeviceWrench(const ServoTick&, const DeviceState&)>;
+
+  /// A loop that only keeps time. Refuses (`std::invalid_argument`) an empty callback and a rate other than 0 outside 0.001 to 1e9 Hz.
   /// @param clock  outlives the loop; none is CLOCK_MONOTONIC
   ServoLoop(const ServoSettings& settings, Callback callback, Clock* clock = nullptr);
+  /// A loop that renders to a device, which is open before `start` and outlives the loop.
+  /// @param clock  outlives the loop; none is CLOCK_MONOTONIC
+  ServoLoop(const ServoSettings& settings, Device& device, Render render, Clock* clock = nullptr);
   /// Stops and waits.
   ~ServoLoop();
   ServoLoop(const ServoLoop&) = delete;
   ServoLoop& operator=(const ServoLoop&) = delete;
 
-  /// Starts the thread and returns what the system granted it. Once only: a second call is refused.
+  /// Starts the thread and returns what the system granted it. Once only: a second call is refused, and so are force limits that are none.
   const RealTimeSetup& start();
   /// Asks the loop to end after this tick; from any thread, the callback's too. Takes at most one period.
   void stop() noexcept { is_stopping_.store(true, std::memory_order_relaxed); }
   /// Waits for the end. Not from the callback.
   const ServoReport& wait();
+
+  /// Emergency stop: from the next tick on the device pushes nothing, until `restart_force`. From any thread.
+  void stop_force() noexcept { force_request_.store(ForceRequest::stop, std::memory_order_relaxed); }
+  /// Ends a stop by the program or by a wrench that was not finite; the force comes back by the ramp, once the pose is free. It does not
+  /// overtake a stop that no tick has seen yet. From any thread.
+  void restart_force() noexcept;
+  /// While it runs, from any thread; of a loop with a device.
+  ForcePhase force_phase() const noexcept { return force_phase_.load(std::memory_order_relaxed); }
+  ForceFault force_fault() const noexcept { return force_fault_.load(std::memory_order_relaxed); }  ///< the latest
 
   bool is_running() const noexcept { return is_running_.load(std::memory_order_acquire); }
   /// While it runs, from any thread.
@@ -59,11 +86,20 @@ class ServoLoop {
  private:
   void run();
   void loop();
+  bool render_to_device(const ServoTick& tick);
+  void let_go() noexcept;
 
   ServoSettings settings_;
   Callback callback_;
   MonotonicClock monotonic_clock_;
   Clock& clock_;
+  Device* device_ = nullptr;
+  Render render_;
+  std::unique_ptr<ForceSafety> safety_;
+  ForceSafety::Tick force_tick_;  // of the loop's thread
+  std::atomic<ForceRequest> force_request_ = ForceRequest::none;
+  std::atomic<ForcePhase> force_phase_ = ForcePhase::waiting;
+  std::atomic<ForceFault> force_fault_ = ForceFault::none;
   ServoReport report_;  // the loop's until it has ended, but for `setup`, which is everybody's after `is_set_up_`
   std::latch is_set_up_{1};
   std::atomic<bool> is_stopping_ = false;

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <string>
 
+#include "feeler/device/force_safety.hpp"
 #include "feeler/device/histogram.hpp"
 #include "feeler/device/real_time.hpp"
 
@@ -17,6 +18,7 @@ struct ServoReport {
   std::int64_t missed = 0;      ///< deadlines that passed while a tick was late or still computing; skipped, never caught up
   Histogram wake_up_latency;    ///< from the deadline to the start of the callback [ns]; empty when it did not wait
   Histogram compute_time;       ///< of the callback [ns]
+  ForceReport force;            ///< what the safety did; of a loop with a device
   std::string problem;          ///< why it ended before it was told to, as one sentence; empty if it did not
 };
 

@@ -1,0 +1,348 @@
+// Every fault of every maker's device, through the whole of loop, safety, driver and library: no force is
+// left on, and a sentence says why.
+//
+// Time is scripted: the loop ticks on whole milliseconds, the device on half ones.
+#include <boost/test/unit_test.hpp>
+
+#include <cstdint>
+#include <functional>
+#include <limits>
+#include <memory>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "feeler/device/force_dimension_device.hpp"
+#include "feeler/device/open_haptics_device.hpp"
+#include "feeler/device/servo_loop.hpp"
+#include "feeler/device/virtuose_device.hpp"
+#include "stand_in/force_dimension_stand_in.hpp"
+#include "stand_in/open_haptics_stand_in.hpp"
+#include "stand_in/stand_in.hpp"
+#include "stand_in/virtuose_stand_in.hpp"
+
+using feeler::DeviceState;
+using feeler::DeviceWrench;
+using feeler::ForceFault;
+using feeler::ServoLoop;
+using feeler::ServoTick;
+
+namespace {
+
+constexpr std::int64_t half_millisecond = 500'000;
+
+/// A clock that makes the world go on while the loop sleeps or works.
+class World final : public feeler::Clock {
+ public:
+  std::function<void()> frame = [] {};  // of the device, on half milliseconds
+  std::function<bool()> is_silent = [] { return true; };
+  std::vector<bool> was_silent;  // at each half millisecond since the start
+
+  std::int64_t now() noexcept override { return now_; }
+  void sleep_until(std::int64_t moment) noexcept override {
+    while (now_ < moment) go_on();
+  }
+  void spend(int milliseconds) {
+    for (int i = 0; i < 2 * milliseconds; ++i) go_on();
+  }
+  int half_milliseconds() const { return int(was_silent.size()); }
+
+ private:
+  void go_on() {
+    now_ += half_millisecond;
+    if (now_ / half_millisecond % 2 == 1) frame();
+    was_silent.push_back(is_silent());
+  }
+  std::int64_t now_ = 1'000'000'000;
+};
+
+/// A maker's device over its stand-in, with its motors watched.
+struct Maker {
+  std::unique_ptr<feeler::Device> device;
+  feeler_test::OpenHapticsStandIn* hd = nullptr;
+  feeler_test::ForceDimensionStandIn* dhd = nullptr;
+  feeler_test::VirtuoseStandIn* virtuose = nullptr;
+};
+
+bool is_zero(const double (&v)[3]) {
+  return v[0] == 0 && v[1] == 0 && v[2] == 0;
+}
+
+Maker open_haptics(World& world) {
+  Maker maker;
+  auto& hd = feeler_test::stand_in<feeler_test::OpenHapticsStandIn>(FEELER_OPEN_HAPTICS_STAND_IN);
+  maker.hd = &hd;
+  maker.device = std::make_unique<feeler::OpenHapticsDevice>(
+      feeler::OpenHapticsSettings{{FEELER_OPEN_HAPTICS_STAND_IN}, ""}, &world);
+  world.frame = [&hd] { hd.tick(); };
+  world.is_silent = [&hd] { return is_zero(hd.force) && is_zero(hd.torque); };
+  return maker;
+}
+
+Maker force_dimension(World& world) {
+  Maker maker;
+  auto& dhd = feeler_test::stand_in<feeler_test::ForceDimensionStandIn>(FEELER_FORCE_DIMENSION_STAND_IN);
+  maker.dhd = &dhd;
+  maker.device = std::make_unique<feeler::ForceDimensionDevice>(
+      feeler::ForceDimensionSettings{{FEELER_FORCE_DIMENSION_STAND_IN}}, &world);
+  world.is_silent = [&dhd] { return is_zero(dhd.force) && is_zero(dhd.torque); };
+  return maker;
+}
+
+Maker virtuose(World& world) {
+  Maker maker;
+  auto& controller = feeler_test::stand_in<feeler_test::VirtuoseStandIn>(FEELER_VIRTUOSE_STAND_IN);
+  maker.virtuose = &controller;
+  feeler::VirtuoseSettings settings;
+  settings.libraries = {FEELER_VIRTUOSE_STAND_IN};
+  maker.device = std::make_unique<feeler::VirtuoseDevice>(settings, &world);
+  world.is_silent = [&controller] {
+    for (const float component : controller.wrench) {
+      if (component != 0) return false;
+    }
+    return true;
+  };
+  return maker;
+}
+
+/// What happens in the tick of the fault, from within the renderer; it may return a wrench of its own.
+using Fault = std::function<DeviceWrench(Maker&, ServoLoop&, World&)>;
+
+constexpr DeviceWrench contact{{1, 2, -1}, {0.01, 0, 0.02}};
+constexpr int fault_tick = 500;  // long after the ramp
+constexpr int last_tick = 560;
+
+struct Outcome {
+  feeler::ServoReport report;
+  bool pushed_before = false;
+  int half_milliseconds_to_silence = 0;  // from the fault on
+  bool stayed_silent = false;            // up to the end, or to `ticks_watched` after the fault
+};
+
+/// Runs a session in contact, with the fault in its tick 500; the renderer wants force on and on.
+Outcome run(Maker (*make)(World&), const Fault& fault) {
+  World world;
+  Maker maker = make(world);
+  const auto opened = maker.device->open();
+  BOOST_REQUIRE_MESSAGE(bool(opened), opened.problem);
+  int fault_at = 0;
+  feeler::ServoSettings settings;
+  settings.tick_limit = last_tick;
+  settings.real_time = {.fifo = false, .priority = 80, .lock_memory = false, .processor = -1};
+  ServoLoop* self = nullptr;
+  ServoLoop loop(
+      settings, *maker.device,
+      [&](const ServoTick& tick, const DeviceState&) {
+        if (tick.index == 0) return DeviceWrench{};
+        if (tick.index != fault_tick) return contact;
+        fault_at = world.half_milliseconds();
+        return fault(maker, *self, world);
+      },
+      &world);
+  self = &loop;
+  loop.start();
+  Outcome outcome;
+  outcome.report = loop.wait();
+  world.spend(5);
+  BOOST_TEST(world.is_silent());  // whatever happened, nothing is left on
+  const auto& silent = world.was_silent;
+  outcome.pushed_before = !silent[std::size_t(fault_at) - 1];
+  std::size_t first = std::size_t(fault_at);
+  while (first < silent.size() && !silent[first]) ++first;
+  outcome.half_milliseconds_to_silence = int(first) - fault_at;
+  outcome.stayed_silent = true;
+  for (std::size_t i = first; i < silent.size(); ++i)
+    outcome.stayed_silent = outcome.stayed_silent && silent[i];
+  maker.device->close();
+  return outcome;
+}
+
+void check_silenced(const Outcome& outcome, ForceFault fault) {
+  BOOST_TEST(outcome.pushed_before);
+  // The sample at fault_at is half a millisecond after the fault: index n lies (n + 1)/2 ms after it.
+  BOOST_TEST(outcome.half_milliseconds_to_silence <= 3);
+  BOOST_TEST(outcome.stayed_silent);
+  BOOST_TEST((outcome.report.force.first_fault == fault),
+             feeler::to_string(outcome.report.force.first_fault));
+}
+
+const std::vector<std::pair<const char*, Maker (*)(World&)>> makers = {
+    {"OpenHaptics", &open_haptics}, {"Force Dimension", &force_dimension}, {"Virtuose", &virtuose}};
+
+}  // namespace
+
+BOOST_AUTO_TEST_SUITE(force_faults)
+
+BOOST_AUTO_TEST_CASE(without_a_fault_the_force_stays_on_to_the_end) {
+  for (const auto& [name, make] : makers) {
+    BOOST_TEST_CONTEXT(name) {
+      int pushed = 0;
+      const auto outcome = run(make, [&pushed](Maker&, ServoLoop&, World&) { return ++pushed, contact; });
+      BOOST_TEST(pushed == 1);
+      BOOST_TEST(outcome.pushed_before);
+      BOOST_TEST(outcome.half_milliseconds_to_silence >= 2 * (last_tick - fault_tick) - 2);
+      BOOST_TEST((outcome.report.force.first_fault == ForceFault::none));
+      BOOST_TEST(outcome.report.problem == "");
+      BOOST_TEST(outcome.report.ticks == last_tick);
+    }
+  }
+}
+
+BOOST_AUTO_TEST_CASE(a_wrench_that_is_not_finite_ends_in_silence_on_every_device) {
+  for (const auto& [name, make] : makers) {
+    BOOST_TEST_CONTEXT(name) {
+      check_silenced(run(make,
+                         [](Maker&, ServoLoop&, World&) {
+                           return DeviceWrench{{0, std::numeric_limits<double>::quiet_NaN(), 0}, {0, 0, 0}};
+                         }),
+                     ForceFault::not_finite);
+    }
+  }
+}
+
+BOOST_AUTO_TEST_CASE(an_emergency_stop_ends_in_silence_on_every_device) {
+  for (const auto& [name, make] : makers) {
+    BOOST_TEST_CONTEXT(name) {
+      check_silenced(run(make,
+                         [](Maker&, ServoLoop& loop, World&) {
+                           loop.stop_force();
+                           loop.restart_force();  // does not overtake the stop
+                           return contact;
+                         }),
+                     ForceFault::emergency_stop);
+    }
+  }
+}
+
+BOOST_AUTO_TEST_CASE(a_renderer_that_throws_ends_in_silence_on_every_device) {
+  for (const auto& [name, make] : makers) {
+    BOOST_TEST_CONTEXT(name) {
+      const auto outcome = run(
+          make, [](Maker&, ServoLoop&, World&) -> DeviceWrench { throw std::runtime_error("out of ideas"); });
+      check_silenced(outcome, ForceFault::none);
+      BOOST_TEST(outcome.report.problem == "The callback threw, so the loop ended: out of ideas");
+      BOOST_TEST(outcome.report.ticks == fault_tick);
+    }
+  }
+}
+
+BOOST_AUTO_TEST_CASE(force_errors_of_open_haptics_end_in_silence) {
+  for (const unsigned int error : {0x200u, 0x201u, 0x202u, 0x203u, 0x204u}) {
+    for (const bool after_push : {false, true}) {
+      BOOST_TEST_CONTEXT("error " << error << (after_push ? " after" : " before") << " the push") {
+        const auto outcome = run(&open_haptics, [=](Maker& maker, ServoLoop&, World&) {
+          (after_push ? maker.hd->error_after_push : maker.hd->error_in_next_frame) = error;
+          return contact;
+        });
+        check_silenced(outcome, ForceFault::device_warning);
+        BOOST_TEST(outcome.report.ticks == last_tick);  // it goes on, without force: the pose is not free
+        BOOST_TEST(to_string(outcome.report).find("the device complains") != std::string::npos);
+      }
+    }
+  }
+}
+
+BOOST_AUTO_TEST_CASE(warm_motors_of_open_haptics_end_in_silence) {
+  check_silenced(run(&open_haptics,
+                     [](Maker& maker, ServoLoop&, World&) {
+                       maker.hd->temperatures[2] = 1;
+                       return contact;
+                     }),
+                 ForceFault::hot_motors);
+}
+
+BOOST_AUTO_TEST_CASE(a_lost_open_haptics_device_ends_in_silence_and_a_sentence) {
+  for (const bool is_error : {true, false}) {
+    const auto outcome = run(&open_haptics, [=](Maker& maker, ServoLoop&, World&) {
+      if (is_error) {
+        maker.hd->error_in_next_frame = 0x302;
+      } else {
+        maker.hd->transform[12] = std::numeric_limits<double>::infinity();
+      }
+      return contact;
+    });
+    check_silenced(outcome, ForceFault::device_lost);
+    BOOST_TEST(outcome.report.ticks < last_tick);
+    BOOST_TEST(outcome.report.problem.find("The device was lost, so the force is off") == 0u);
+    BOOST_TEST(outcome.report.problem.find(is_error ? "check its power and cable" : "a pose that is none") !=
+               std::string::npos);
+  }
+}
+
+BOOST_AUTO_TEST_CASE(a_renderer_that_hangs_is_silenced_by_the_servo_thread_of_open_haptics) {
+  const auto outcome = run(&open_haptics, [](Maker&, ServoLoop&, World& world) {
+    world.spend(20);
+    return contact;
+  });
+  BOOST_TEST(outcome.pushed_before);
+  // The frames go on: the third without a wrench is silent, 2 ms after the tick was due. Then the loop is
+  // back and finds that it was late.
+  BOOST_TEST(outcome.half_milliseconds_to_silence <= 6);
+  BOOST_TEST((outcome.report.force.first_fault == ForceFault::late_tick));
+  BOOST_TEST(outcome.report.missed >= 19);
+}
+
+BOOST_AUTO_TEST_CASE(a_servo_thread_that_stops_is_found_out_and_finds_no_force_when_it_goes_on) {
+  int return_at = 0;
+  bool was_silent_then = false;
+  const auto outcome = run(&open_haptics, [&](Maker&, ServoLoop&, World& world) {
+    // Meanwhile nobody can push anew, or stop pushing: the amplifiers have a watchdog of their own.
+    world.frame = [&world, &return_at, &was_silent_then, frame = world.frame, missing = 20]() mutable {
+      if (missing-- > 0) return;
+      frame();
+      if (missing == -1) was_silent_then = world.is_silent();
+      return_at = world.half_milliseconds();
+    };
+    return contact;
+  });
+  BOOST_TEST(return_at > 0);
+  BOOST_TEST(was_silent_then);
+  BOOST_TEST((outcome.report.force.first_fault == ForceFault::stale_pose));
+}
+
+BOOST_AUTO_TEST_CASE(a_lost_force_dimension_device_ends_in_silence_and_a_sentence) {
+  const auto outcome = run(&force_dimension, [](Maker& maker, ServoLoop&, World&) {
+    maker.dhd->frame[1][1] = std::numeric_limits<double>::quiet_NaN();
+    return contact;
+  });
+  check_silenced(outcome, ForceFault::device_lost);
+  BOOST_TEST(outcome.report.problem.find("a pose that is none") != std::string::npos);
+}
+
+BOOST_AUTO_TEST_CASE(a_force_dimension_device_that_only_answers_with_its_time_guard_ends_in_silence) {
+  const auto outcome = run(&force_dimension, [](Maker& maker, ServoLoop&, World&) {
+    maker.dhd->has_nothing_new = true;
+    return contact;
+  });
+  // From the moment at which the pose is too old: 3 ms.
+  BOOST_TEST(outcome.half_milliseconds_to_silence <= 6 + 4);
+  BOOST_TEST(outcome.stayed_silent);
+  BOOST_TEST((outcome.report.force.first_fault == ForceFault::stale_pose));
+  BOOST_TEST(outcome.report.ticks == last_tick);
+}
+
+BOOST_AUTO_TEST_CASE(what_hinders_a_virtuose_ends_in_silence) {
+  const std::vector<void (*)(feeler_test::VirtuoseStandIn&)> hindrances = {
+      [](auto& controller) { controller.is_emergency_stopped = true; },
+      [](auto& controller) { controller.is_powered = false; },
+      [](auto& controller) { controller.is_held = false; }};
+  for (const auto hinder : hindrances) {
+    const auto outcome = run(&virtuose, [=](Maker& maker, ServoLoop&, World&) {
+      hinder(*maker.virtuose);
+      return contact;
+    });
+    check_silenced(outcome, ForceFault::device_warning);
+    BOOST_TEST(outcome.report.ticks == last_tick);
+  }
+}
+
+BOOST_AUTO_TEST_CASE(a_virtuose_with_a_broken_pose_ends_in_silence_and_a_sentence) {
+  const auto outcome = run(&virtuose, [](Maker& maker, ServoLoop&, World&) {
+    maker.virtuose->pose[3] = 3;
+    return contact;
+  });
+  check_silenced(outcome, ForceFault::device_lost);
+  BOOST_TEST(outcome.report.problem.find("a pose that is none") != std::string::npos);
+}
+
+BOOST_AUTO_TEST_SUITE_END()
