@@ -6,8 +6,10 @@
 #include <cmath>
 #include <limits>
 #include <string>
+#include <thread>
 
 #include "feeler/device/open_haptics_device.hpp"
+#include "feeler/device/servo_loop.hpp"
 #include "stand_in/open_haptics_stand_in.hpp"
 #include "stand_in/stand_in.hpp"
 
@@ -289,6 +291,37 @@ BOOST_AUTO_TEST_CASE(the_hottest_motor_is_told_by_those_that_measure_it) {
   BOOST_TEST((push_once(device, hd) == DeviceStatus::ok));
   BOOST_TEST((device.read(state) == DeviceStatus::ok));
   BOOST_TEST(state.motor_temperature == 0);
+}
+
+BOOST_AUTO_TEST_CASE(the_servo_thread_of_the_library_the_loop_and_a_watcher_get_along) {
+  auto& hd = fresh();
+  hd.own_thread = true;
+  OpenHapticsDevice device(settings());
+  BOOST_REQUIRE(bool(device.open()));
+  feeler::ServoSettings servo;
+  servo.rate = 2000;
+  servo.tick_limit = 400;
+  servo.real_time = {.fifo = false, .priority = 80, .lock_memory = false, .processor = -1};
+  feeler::ServoLoop loop(servo, device, [](const feeler::ServoTick& tick, const DeviceState& state) {
+    return DeviceWrench{{tick.index < 20 ? 0 : 1 + state.pose.position[0], 0, 0}, {0, 0, 0.01}};
+  });
+  loop.start();
+  bool was_stopped = false;
+  while (loop.is_running()) {
+    if (loop.ticks() > 200 && !was_stopped) {
+      loop.stop_force();
+      was_stopped = true;
+    }
+    if (loop.force_phase() == feeler::ForcePhase::stopped) loop.restart_force();
+    std::this_thread::yield();
+  }
+  const auto& report = loop.wait();
+  BOOST_TEST(report.ticks == 400);
+  BOOST_TEST(report.problem == "");
+  BOOST_TEST(report.force.ticks_with[std::size_t(feeler::ForceFault::emergency_stop)] == 1);
+  device.close();
+  BOOST_TEST(is_silent(hd));
+  BOOST_TEST(hd.broken_rules == 0);
 }
 
 BOOST_AUTO_TEST_CASE(closing_lets_go_and_opening_again_starts_afresh) {
