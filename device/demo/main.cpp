@@ -1,10 +1,12 @@
-// feeler-demo: runs scenes on a simulated haptic device and reports what happened.
+// feeler-demo: runs scenes on a haptic device, simulated or real, and reports what happened.
 //
 // Exit code 0: nothing penetrated; 1: something did; 2: the input cannot be used.
 #include <cstdio>
 #include <exception>
 
 #include "bad_input.hpp"
+#include "feeler/device/device_catalogue.hpp"
+#include "feeler/device/session_recorder.hpp"
 #include "options.hpp"
 #include "report.hpp"
 #include "scene_choice.hpp"
@@ -30,10 +32,38 @@ void print_table(const Summary& summary) {
     std::printf("  %-28s %s\n", name.c_str(), value.c_str());
 }
 
+/// What every maker's library and device say.
+int list_all_devices() {
+  for (const DeviceListing& listing : list_devices()) std::printf("%s", to_string(listing).c_str());
+  std::printf("simulated: %s\n", phantom_premium_3_0_6dof().name.c_str());
+  return success;
+}
+
+/// Exit code 1 where the force safety pushes otherwise than recorded.
+int replay_session(const std::filesystem::path& file) {
+  SessionRecording session;
+  try {
+    session = load_session(file);
+  } catch (const std::runtime_error& problem) {
+    throw BadInput(problem.what());
+  }
+  const Replay result = replay(session);
+  std::printf("%s: %zu ticks of a session with a %s, ", file.c_str(), result.ticks,
+              session.device.name.c_str());
+  if (result.is_exact()) {
+    std::printf("every wrench the same to the last bit\n");
+    return success;
+  }
+  std::printf("another wrench from tick %lld on\n", static_cast<long long>(result.first_other_push));
+  return penetrated;
+}
+
 /// Runs one scene from start to report.
 int run_scene(const ChosenScene& chosen, const Options& options, const std::filesystem::path& out) {
   const scenes::Scene& scene = chosen.scene;
-  const SessionSettings session{options.rate, options.seconds, options.seed};
+  const SessionSettings session{options.rate,   options.seconds,        options.seed,
+                                options.device, options.device_library, options.workspace_scale,
+                                options.record};
   ReportFolder folder(out);
   std::printf("%s: %s %lld triangles.\n", scene.name.c_str(), scene.description.c_str(),
               static_cast<long long>(scene.triangles.rows()));
@@ -50,6 +80,7 @@ int run_scene(const ChosenScene& chosen, const Options& options, const std::file
   if (!write_report(folder.partial(), {chosen, session, recording, summary})) {
     std::printf("  note: no figures, because gnuplot did not run; install gnuplot-nox to have them.\n");
   }
+  if (recording.session) save(*recording.session, folder.partial() / "session.feeler");
   folder.publish();
   std::printf("  report: %s\n\n", (folder.target() / "report.html").c_str());
   std::fflush(stdout);
@@ -59,6 +90,8 @@ int run_scene(const ChosenScene& chosen, const Options& options, const std::file
 int run(int argument_count, const char* const* arguments) {
   const auto [options, exit_code] = read_command_line(argument_count, arguments);
   if (exit_code) return *exit_code;
+  if (options.list_devices) return list_all_devices();
+  if (options.replay) return replay_session(*options.replay);
   int worst = success;
   for (const ChosenScene& chosen : choose_scenes(options)) {
     const bool is_alone = options.scene.has_value();

@@ -25,6 +25,11 @@ void validate(const Options& options) {
           "--clearance must be between -0.01 and 0.01 m; below 0 the cube does not fit.");
   require(within(options.triangles, 2, 4e6), "--triangles must be between 2 and 4000000.");
   require(within(options.rate, 10.0, 2e4), "--rate must be between 10 and 20000 Hz.");
+  require(within(options.workspace_scale, 1e-3, 1e3), "--workspace-scale must be between 0.001 and 1000.");
+  require(options.device_library.empty() || (options.device != "simulated" && options.device != "auto"),
+          "--device-library belongs to one maker: choose it with --device.");
+  require(options.device != "simulated" || options.workspace_scale == 1.0,
+          "--workspace-scale belongs to a real device: choose one with --device.");
   require(within(options.seconds, 0.01, 3600.0), "--seconds must be between 0.01 and 3600.");
   require(
       options.rate * options.seconds <= maximum_ticks,
@@ -43,7 +48,8 @@ CommandLine read_command_line(int argument_count, const char* const* arguments) 
   std::vector<double> start;
 
   CLI::App app(
-      "Renders rigid contact to a simulated 6-DOF haptic device and writes a report that anybody can check.",
+      "Renders rigid contact to a haptic device, simulated or real, and writes a report that anybody can "
+      "check.",
       "feeler-demo");
   app.set_version_flag("--version", FEELER_VERSION);
   app.add_option("--scene", options.scene, "default: cavity, steps and a real mesh, one after the other")
@@ -61,6 +67,19 @@ CommandLine read_command_line(int argument_count, const char* const* arguments) 
   app.add_option("--rate", options.rate, "of the servo loop [Hz]")->capture_default_str();
   app.add_option("--seconds", options.seconds, "a scene")->capture_default_str();
   app.add_option("--seed", options.seed, "of everything random")->capture_default_str();
+  app.add_option("--device", options.device, "what to render to; auto takes the first that answers")
+      ->check(CLI::IsMember({"auto", "simulated", "openhaptics", "forcedimension", "virtuose"}))
+      ->capture_default_str();
+  app.add_option("--device-library", options.device_library,
+                 "file of the maker's library (default: its usual names)");
+  app.add_option("--workspace-scale", options.workspace_scale, "metres of the scene a metre of a real device")
+      ->capture_default_str();
+  app.add_flag("--list-devices", options.list_devices,
+               "open every maker's device, say what it is or what is missing, and end");
+  app.add_flag("--record", options.record,
+               "every tick between device and renderer, as session.feeler in the report");
+  app.add_option("--replay", options.replay,
+                 "run a recorded session through the force safety again, and end");
   app.add_option("--out", options.out, "folder of the report (default: out/, a folder a scene in it)");
   try {
     app.parse(argument_count, arguments);

@@ -23,6 +23,12 @@ struct Options {
   double rate = 1000.0;                         ///< of the servo loop [Hz]
   double seconds = 8.0;                         ///< a scene
   std::uint32_t seed = 1;                       ///< of everything random
+  std::string device = "simulated";             ///< or auto, or the name of a maker
+  std::string device_library;                   ///< file of the maker's library; empty for its usual names
+  double workspace_scale = 1.0;                 ///< metres of the scene a metre of the device
+  bool record = false;                          ///< the session, into the report
+  bool list_devices = false;                    ///< and nothing else
+  std::optional<std::filesystem::path> replay;  ///< a recorded session, and nothing else
   std::optional<std::filesystem::path> out;     ///< unset: `out/`, a folder a scene in it
 };
 

@@ -3,10 +3,12 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "feeler/device/servo_report.hpp"
+#include "feeler/device/session_recorder.hpp"
 #include "feeler/spatial/pose.hpp"
 #include "feeler/spatial/wrench.hpp"
 
@@ -34,7 +36,11 @@ struct Recording {
   /// a straight line and its axes turn at a constant rate.
   std::vector<Pose<double>> way;
   ServoReport servo;
-  double wall_seconds = 0.0;  ///< from the first tick to the last
+  DeviceSpecification device;
+  bool is_simulated = true;                 ///< the device
+  double stiffness_share = 1.0;             ///< of the scene's stiffness, that the device can render
+  std::optional<SessionRecording> session;  ///< where it was asked for
+  double wall_seconds = 0.0;                ///< from the first tick to the last
 
   /// Where in `way` a tick begins: at the graphic pose of the tick before, or at the start pose.
   std::size_t way_begin(std::size_t tick) const { return tick == 0 ? 0 : ticks[tick - 1].way_end - 1; }

@@ -81,8 +81,10 @@ std::string processor_name() {
   return "unknown";
 }
 
-ordered_json renderer_json(const scenes::Scene& scene) {
-  const Settings<double> settings = scene.settings();
+ordered_json renderer_json(const scenes::Scene& scene, double stiffness_share) {
+  Settings<double> settings = scene.settings();
+  settings.stiffness.translational *= stiffness_share;
+  settings.stiffness.rotational *= stiffness_share;
   return {{"reference_point", json_of(settings.reference_point)},
           {"stiffness_translational_N_per_m", json_of(settings.stiffness.translational)},
           {"stiffness_rotational_Nm_per_rad", json_of(settings.stiffness.rotational)},
@@ -92,6 +94,17 @@ ordered_json renderer_json(const scenes::Scene& scene) {
           {"step_tolerance_m", settings.step_tolerance},
           {"maximum_iterations", settings.maximum_iterations},
           {"work_budget", settings.work_budget}};
+}
+
+/// A real device has no hand that we know.
+ordered_json real_device_json(const DeviceSpecification& s, const SessionSettings& session) {
+  return {{"name", s.name},
+          {"maximum_force_N", s.maximum_force},
+          {"maximum_torque_Nm", s.maximum_torque},
+          {"position_resolution_m", s.position_resolution},
+          {"rotation_resolution_rad", s.rotation_resolution},
+          {"workspace_scale", session.workspace_scale},
+          {"period_s", 1.0 / session.rate}};
 }
 
 ordered_json device_json(const SessionSettings& session) {
@@ -144,34 +157,36 @@ ordered_json results_json(const Summary& s) {
 void write_scene(const std::filesystem::path& file, const Run& run) {
   const scenes::Scene& scene = run.chosen.scene;
   const RealTimeSetup& setup = run.recording.servo.setup;
-  const ordered_json json = {{"scene", scene.name},
-                             {"description", scene.description},
-                             {"object",
-                              {{"source", run.chosen.object_source},
-                               {"triangles", scene.triangles.rows()},
-                               {"vertices", scene.vertices.rows()}}},
-                             {"tool", {{"source", run.chosen.tool_source}}},
-                             {"start", json_of(scene.start)},
-                             {"rate_Hz", run.session.rate},
-                             {"seconds", run.session.seconds},
-                             {"seed", run.session.seed},
-                             {"renderer", renderer_json(scene)},
-                             {"device", device_json(run.session)},
-                             {"build",
-                              {{"version", FEELER_VERSION},
-                               {"commit", build_commit},
-                               {"compiler", build_compiler},
-                               {"type", build_type},
-                               {"flags", build_flags}}},
-                             {"machine",
-                              {{"processor", processor_name()},
-                               {"kernel", setup.kernel},
-                               {"preempt_rt", setup.is_preempt_rt},
-                               {"scheduler", setup.policy},
-                               {"priority", setup.priority},
-                               {"memory_locked", setup.is_memory_locked},
-                               {"refused", setup.refused}}},
-                             {"results", results_json(run.summary)}};
+  const ordered_json json = {
+      {"scene", scene.name},
+      {"description", scene.description},
+      {"object",
+       {{"source", run.chosen.object_source},
+        {"triangles", scene.triangles.rows()},
+        {"vertices", scene.vertices.rows()}}},
+      {"tool", {{"source", run.chosen.tool_source}}},
+      {"start", json_of(scene.start)},
+      {"rate_Hz", run.session.rate},
+      {"seconds", run.session.seconds},
+      {"seed", run.session.seed},
+      {"renderer", renderer_json(scene, run.recording.stiffness_share)},
+      {"device", run.recording.is_simulated ? device_json(run.session)
+                                            : real_device_json(run.recording.device, run.session)},
+      {"build",
+       {{"version", FEELER_VERSION},
+        {"commit", build_commit},
+        {"compiler", build_compiler},
+        {"type", build_type},
+        {"flags", build_flags}}},
+      {"machine",
+       {{"processor", processor_name()},
+        {"kernel", setup.kernel},
+        {"preempt_rt", setup.is_preempt_rt},
+        {"scheduler", setup.policy},
+        {"priority", setup.priority},
+        {"memory_locked", setup.is_memory_locked},
+        {"refused", setup.refused}}},
+      {"results", results_json(run.summary)}};
   TextFile text(file);
   text.write(json.dump(2) + "\n");
   text.close();

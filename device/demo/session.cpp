@@ -4,12 +4,17 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <csignal>
+#include <cstdio>
+#include <memory>
 #include <thread>
 
 #include "bad_input.hpp"
 #include "feeler/device/conversion.hpp"
+#include "feeler/device/device_catalogue.hpp"
 #include "feeler/device/latest_value.hpp"
 #include "feeler/device/servo_loop.hpp"
+#include "feeler/device/workspace_map.hpp"
 #include "feeler/object/triangle_mesh.hpp"
 #include "feeler/render/haptic_renderer.hpp"
 
@@ -28,13 +33,66 @@ struct Snapshot {
   int contacts;
 };
 
+volatile std::sig_atomic_t is_interrupted = 0;
+
+/// While it lives, an interrupt from the keyboard lets a real device go before the program ends.
+class InterruptGuard {
+ public:
+  InterruptGuard() : previous_(std::signal(SIGINT, [](int) { is_interrupted = 1; })) {}
+  ~InterruptGuard() { std::signal(SIGINT, previous_); }
+  InterruptGuard(const InterruptGuard&) = delete;
+  InterruptGuard& operator=(const InterruptGuard&) = delete;
+
+ private:
+  void (*previous_)(int);
+};
+
+/// The real device that was asked for, open; nothing where none answers and a simulated one may take its
+/// place.
+std::unique_ptr<Device> open_real_device(const SessionSettings& settings) {
+  std::string problems;
+  for (const Maker maker : all_makers) {
+    if (settings.device != "auto" && settings.device != name_of(maker)) continue;
+    auto device = make_device(maker, settings.device_library, 1.0 / settings.rate);
+    const OpenResult opened = device->open();
+    if (opened) return device;
+    if (settings.device != "auto") throw BadInput(opened.problem);
+    std::printf("  note: %s\n", opened.problem.c_str());
+  }
+  if (settings.device == "auto") std::printf("  note: no device answers, so a simulated one is used.\n");
+  return nullptr;
+}
+
+/// The rates that the device accepts.
+void check_rate(const DeviceSpecification& device, double rate) {
+  if (rate >= device.minimum_rate && rate <= device.maximum_rate) return;
+  throw BadInput("The " + device.name + " runs at " + std::to_string(int(device.minimum_rate)) + " to " +
+                 std::to_string(int(device.maximum_rate)) + " Hz: give such a --rate.");
+}
+
+/// How much of the scene's stiffness the device renders without buzzing.
+double renderable_share(const Stiffness<double>& wanted, const DeviceSpecification& device,
+                        const WorkspaceMap& map) {
+  double share = std::min(1.0, map.scene_stiffness(device.stiffness) / wanted.translational.maxCoeff());
+  if (device.pushes_torque()) {
+    share = std::min(
+        share, map.scene_rotational_stiffness(device.rotational_stiffness) / wanted.rotational.maxCoeff());
+  }
+  return share;
+}
+
 /// Prints what the loop hands over, until the loop ends.
 void watch(ServoLoop& loop, LatestValue<Snapshot>& latest, const ProgressSink& report) {
   auto last_time = SteadyClock::now();
   std::int64_t last_ticks = 0;
   while (loop.is_running()) {
-    for (int i = 0; i < 25 && loop.is_running(); ++i)
+    for (int i = 0; i < 25 && loop.is_running(); ++i) {
       std::this_thread::sleep_for(std::chrono::milliseconds(20));
+      if (is_interrupted != 0) {
+        loop.stop_force();
+        loop.stop();
+      }
+    }
     Snapshot snapshot;
     if (!latest.fetch(snapshot)) continue;
     const auto now = SteadyClock::now();
@@ -49,18 +107,37 @@ void watch(ServoLoop& loop, LatestValue<Snapshot>& latest, const ProgressSink& r
 template <class Tool>
 Recording run(const scenes::Scene& scene, const Tool& tool, const SessionSettings& settings,
               const ProgressSink& report) {
+  SimulatedPhantom phantom([&](double t) { return to_device_pose(scene.motion(t)); },
+                           device_settings(settings));
+  const std::unique_ptr<Device> real_device =
+      settings.device == "simulated" ? nullptr : open_real_device(settings);
+  Device& device = real_device ? *real_device : phantom;
+  if (const OpenResult opened = device.open(); !opened) throw std::runtime_error(opened.problem);
+
+  Recording recording;
+  recording.device = device.specification();
+  recording.is_simulated = real_device == nullptr;
+  WorkspaceSettings workspace;
+  Settings<double> renderer_settings = scene.settings();
+  if (real_device) {
+    check_rate(recording.device, settings.rate);
+    workspace.scale = settings.workspace_scale;
+    workspace.clutch_buttons = 1;
+  }
+  WorkspaceMap map(workspace);
+  if (real_device) {
+    recording.stiffness_share = renderable_share(renderer_settings.stiffness, recording.device, map);
+    renderer_settings.stiffness.translational *= recording.stiffness_share;
+    renderer_settings.stiffness.rotational *= recording.stiffness_share;
+  }
+
   const TriangleMesh<double> object(scene.vertices, scene.triangles);
-  HapticRenderer renderer(object, tool, scene.settings());
+  HapticRenderer renderer(object, tool, renderer_settings);
   if (renderer.reset(scene.start) != Status::converged) {
     throw BadInput(
         "The start pose of the scene " + scene.name +
         " penetrates the object: start outside (--start) or give a clearance of 0 or more (--clearance).");
   }
-  SimulatedPhantom device([&](double t) { return to_device_pose(scene.motion(t)); },
-                          device_settings(settings));
-  if (const OpenResult opened = device.open(); !opened) throw std::runtime_error(opened.problem);
-
-  Recording recording;
   // Touched before the loop, with room for the longest way.
   recording.ticks.resize(std::size_t(std::ceil(settings.rate * settings.seconds)));
   const int longest_way = std::min(scene.settings().maximum_iterations, Tick<double>::path_capacity);
@@ -74,18 +151,21 @@ Recording run(const scenes::Scene& scene, const Tool& tool, const SessionSetting
   ServoSettings servo;
   servo.rate = settings.rate;
   servo.tick_limit = std::int64_t(recording.ticks.size());
-  ServoLoop loop(servo, [&](const ServoTick&) {
-    DeviceState state;
-    if (device.read(state) == DeviceStatus::fault) return false;
-    const Pose<double> haptic = from_device<Pose<double>>(state.pose);
+  SessionRecorder recorder(settings.record ? recording.ticks.size() : 0);
+  if (settings.record) servo.recorder = &recorder;
+  double first_time = 0;
+  ServoLoop loop(servo, device, [&](const ServoTick&, const DeviceState& state) {
+    if (count == 0) {
+      first_time = state.time;
+      if (real_device) map.place(state.pose, to_device_pose(scene.start));
+    }
+    const Pose<double> haptic = from_device<Pose<double>>(map.to_scene(state));
     const auto before = SteadyClock::now();
     const Tick<double>& tick = renderer.update(haptic);
     const auto after = SteadyClock::now();
-    device.write(to_device_wrench(tick.wrench));
-
     for (int i = 0; i + 1 < tick.path.size(); ++i) recording.way[way_end++] = tick.path[i];
     recording.way[way_end++] = tick.graphic_pose;
-    recording.ticks[count] = {state.time,
+    recording.ticks[count] = {state.time - first_time,
                               haptic,
                               tick.graphic_pose,
                               tick.wrench,
@@ -95,17 +175,22 @@ Recording run(const scenes::Scene& scene, const Tool& tool, const SessionSetting
                               tick.converged(),
                               1e6 * seconds_between(before, after),
                               way_end};
-    latest.store(
-        {state.time, recording.ticks[count].microseconds, tick.wrench.force.norm(), tick.contacts.size()});
+    latest.store({recording.ticks[count].time, recording.ticks[count].microseconds, tick.wrench.force.norm(),
+                  tick.contacts.size()});
     if (count == 0) first = before;
     last = before;
-    return ++count < recording.ticks.size();
+    ++count;
+    return map.to_device(to_device_wrench(tick.wrench));
   });
+  const InterruptGuard guard;
   loop.start();
   watch(loop, latest, report);
   recording.servo = loop.wait();
   device.close();
   if (!recording.servo.problem.empty()) throw std::runtime_error(recording.servo.problem);
+  if (is_interrupted != 0)
+    throw std::runtime_error("Stopped from the keyboard: the force is off, and there is no report.");
+  if (settings.record) recording.session = recorder.recording();
   recording.ticks.resize(count);
   recording.way.resize(way_end);
   recording.wall_seconds = seconds_between(first, last);

@@ -1,4 +1,5 @@
-// One run of one scene: a simulated hand and device, the renderer, and the servo loop that joins them.
+// One run of one scene: a device in a simulated or a real hand, the renderer, and the servo loop that joins
+// them.
 #pragma once
 
 #include <functional>
@@ -14,7 +15,11 @@ namespace feeler::demo {
 struct SessionSettings {
   double rate = 1000.0;  ///< [Hz]
   double seconds = 8.0;
-  std::uint32_t seed = 1;  ///< of the tremor of the hand
+  std::uint32_t seed = 1;            ///< of the tremor of the simulated hand
+  std::string device = "simulated";  ///< or auto, or the name of a maker
+  std::string device_library = {};   ///< of the maker; empty for its usual names
+  double workspace_scale = 1.0;      ///< of a real device
+  bool record = false;               ///< keep what passed between device and renderer
 };
 
 /// What can be told about a running session.
@@ -28,11 +33,13 @@ struct Progress {
 };
 using ProgressSink = std::function<void(const Progress&)>;
 
-/// The device of a session: a Phantom Premium 3.0/6DOF in a steady hand.
+/// The simulated device of a session: a Phantom Premium 3.0/6DOF in a steady hand.
 SimulatedPhantomSettings device_settings(const SessionSettings& settings);
 
 /// Runs the scene in real time and records every tick; reports about twice a second on the caller's thread.
-/// @throws BadInput when the start pose penetrates, or when the library refuses the mesh
+/// A real device begins at the start pose of the scene, wherever its handle is; its first button is a clutch,
+/// and an interrupt from the keyboard stops its force.
+/// @throws BadInput when the start pose penetrates, the library refuses the mesh, or the device does not open
 Recording run_session(const scenes::Scene& scene, const SessionSettings& settings,
                       const ProgressSink& report);
 

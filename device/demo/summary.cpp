@@ -64,6 +64,7 @@ Summary summarise(const scenes::Scene& scene, const Recording& recording, const 
   summary.wanted_rate = wanted_rate;
   summary.achieved_rate = recording.achieved_rate();
   summary.missed_deadlines = recording.servo.missed;
+  summary.force = recording.servo.force;
   summary.verification = verification;
 
   std::vector<double> times, rows, iterations;
@@ -84,6 +85,19 @@ Summary summarise(const scenes::Scene& scene, const Recording& recording, const 
   summary.iterations = distribution_of(std::move(iterations));
   add_steps(recording.ticks, summary);
   return summary;
+}
+
+/// What it shortened, slowed and dropped, and the first fault.
+std::string safety_text(const ForceReport& force) {
+  const auto count = [](std::int64_t ticks) { return static_cast<long long>(ticks); };
+  std::string text =
+      format("%lld ticks shortened, %lld slowed", count(force.ticks_shortened), count(force.ticks_slowed));
+  if (force.ticks_without_torque > 0) {
+    text += format("; torque dropped in %lld, up to %.1f mN·m: the device has no motors for it",
+                   count(force.ticks_without_torque), 1e3 * force.peak_lost_torque);
+  }
+  if (force.first_fault == ForceFault::none) return text + "; no fault";
+  return text + format("; first fault at %.3f s: ", force.first_fault_time) + to_string(force.first_fault);
 }
 
 std::vector<std::pair<std::string, std::string>> table_of(const Summary& s) {
@@ -110,7 +124,10 @@ std::vector<std::pair<std::string, std::string>> table_of(const Summary& s) {
       {"largest pose step",
        format("%.3f mm, %.3f°", 1e3 * s.largest_translation, s.largest_rotation * 57.29577951308232)},
       {"largest wrench step", format("%.3f N, %.2f mN·m", s.largest_force_step, 1e3 * s.largest_torque_step)},
-      {"peak force and torque", format("%.2f N, %.1f mN·m", s.peak_force, 1e3 * s.peak_torque)},
+      {"peak force and torque wanted", format("%.2f N, %.1f mN·m", s.peak_force, 1e3 * s.peak_torque)},
+      {"peak force and torque pushed",
+       format("%.2f N, %.1f mN·m", s.force.peak_force, 1e3 * s.force.peak_torque)},
+      {"force safety", safety_text(s.force)},
   };
 }
 

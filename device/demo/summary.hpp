@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include "feeler/device/force_safety.hpp"
 #include "recording.hpp"
 #include "scenes/scene.hpp"
 #include "verification.hpp"
@@ -35,6 +36,7 @@ struct Summary {
   double largest_torque_step = 0.0;  ///< [N·m]
   double peak_force = 0.0;           ///< norm [N]
   double peak_torque = 0.0;          ///< norm [N·m]
+  ForceReport force;                 ///< what the safety did between renderer and motors
   Verification verification;
 };
 

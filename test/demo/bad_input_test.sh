@@ -114,6 +114,13 @@ refuses 'negative seconds' 'seconds' --seconds -1
 refuses 'no seconds at all' 'seconds' --seconds nan
 refuses 'no triangles' 'triangles' --scene terrain --triangles 0
 refuses 'scale of zero' 'scale' --scene file --object tetrahedron.off --scale 0
+refuses 'unknown device' 'device' --device ouija
+refuses 'library of no maker' 'maker' --device-library libHD.so
+refuses 'library that is missing' 'libHD.so: cannot open shared object file' --device openhaptics --device-library /nowhere/libHD.so
+refuses 'scale of a simulated workspace' 'device' --workspace-scale 2
+refuses 'workspace of no size' 'workspace-scale' --device auto --workspace-scale 0
+refuses 'session that is missing' 'cannot be read' --replay missing.feeler
+refuses 'session that is none' 'no recording' --replay tetrahedron.off
 refuses 'file for another scene' 'scene' --scene cavity --object tetrahedron.off
 
 # A folder with something else in it is not replaced.

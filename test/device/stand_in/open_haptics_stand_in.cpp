@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <atomic>
 #include <chrono>
+#include <cstdlib>
 #include <deque>
 #include <thread>
 #include <utility>
@@ -221,7 +222,8 @@ void hdStartScheduler() {
     }
     device.is_scheduler_running = true;
   }
-  if (!device.own_thread) return run_frame();
+  // The variable is for programs that do not know that this is a stand-in.
+  if (!device.own_thread && std::getenv("FEELER_STAND_IN_RUNS_BY_ITSELF") == nullptr) return run_frame();
   is_stopping = false;
   servo_thread = std::thread([] {
     while (!is_stopping) {

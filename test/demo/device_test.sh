@@ -1,0 +1,58 @@
+#!/bin/sh
+# Real devices as the demo meets them: makers' libraries that are missing or too old, and sessions with libraries that stand in for them.
+# usage: device_test.sh feeler-demo scratch-folder folder-of-stand-ins
+set -u
+demo=$1
+scratch=$2
+stand_ins=$3
+failures=0
+FEELER_STAND_IN_RUNS_BY_ITSELF=1
+export FEELER_STAND_IN_RUNS_BY_ITSELF
+
+rm -rf "$scratch"
+mkdir -p "$scratch"
+cd "$scratch" || exit 1
+
+fail() {
+  echo "FAILED: $1"
+  failures=$((failures + 1))
+}
+
+"$demo" --list-devices >list.txt 2>error.txt || fail "the list ends with exit code $?: $(cat error.txt)"
+[ ! -s error.txt ] || fail "the list has words on the error stream: $(cat error.txt)"
+for device in openhaptics forcedimension virtuose simulated; do
+  [ "$(grep -c "^$device: " list.txt)" -eq 1 ] || fail "the list does not say one thing of $device"
+done
+grep '^[a-z]*: none' list.txt | grep -vq 'install\|check\|calibrate\|switch' && fail "the list leaves a user helpless: $(cat list.txt)"
+
+for pair in openhaptics:open_haptics forcedimension:force_dimension virtuose:virtuose; do
+  device=${pair%:*}
+  library=$stand_ins/lib${pair#*:}_stand_in
+
+  "$demo" --scene cavity --seconds 0.2 --device "$device" --device-library "$library.so" --record --out "$device" >output.txt 2>error.txt ||
+    fail "$device: exit code $?: $(cat error.txt)"
+  grep -q 'force safety' output.txt || fail "$device: the table does not say what the safety did"
+  grep -q 'simulated' "$device/scene.json" && fail "$device: the report calls it simulated"
+  "$demo" --replay "$device/session.feeler" >output.txt 2>error.txt || fail "$device: the replay differs: $(cat output.txt error.txt)"
+  grep -q '200 ticks.*same to the last bit' output.txt || fail "$device: the replay says $(cat output.txt)"
+
+  "$demo" --scene cavity --device "$device" --device-library "${library}_of_an_older_version.so" --out old >output.txt 2>error.txt
+  [ $? -eq 2 ] || fail "$device: an older library is no bad input"
+  grep -q 'has no function' error.txt || fail "$device: of an older library it says $(cat error.txt)"
+  [ "$(wc -l <error.txt)" -eq 1 ] || fail "$device: not one sentence: $(cat error.txt)"
+  [ ! -e old ] || fail "$device: a report of nothing"
+done
+
+# A tick of another session is found.
+cp openhaptics/session.feeler changed.feeler
+printf '\001' | dd of=changed.feeler bs=1 seek=$(($(wc -c <changed.feeler) - 40)) conv=notrunc 2>dd.txt
+"$demo" --replay changed.feeler >output.txt 2>error.txt
+[ $? -eq 1 ] || fail "a changed session is replayed as if it were the same: $(cat output.txt error.txt)"
+
+"$demo" --scene cavity --seconds 0.2 --rate 20000 --device openhaptics --device-library "$stand_ins/libopen_haptics_stand_in.so" --out fast \
+  >output.txt 2>error.txt
+[ $? -eq 2 ] || fail 'a rate that the device does not have is accepted'
+grep -q 'runs at' error.txt || fail "of a rate that it does not have it says $(cat error.txt)"
+
+[ "$failures" -eq 0 ] || { echo "$failures failures"; exit 1; }
+echo 'devices are found, or missed in a sentence'
