@@ -202,6 +202,7 @@ Recording run(const scenes::Scene& scene, const Tool& tool, const SessionSetting
 SimulatedPhantomSettings device_settings(const SessionSettings& settings) {
   SimulatedPhantomSettings device;
   device.period = 1.0 / settings.rate;
+  device.specification.minimum_rate = std::min(device.specification.minimum_rate, settings.rate);
   device.grip.tremor = 3e-5;
   device.grip.rotational_tremor = 3e-4;
   device.grip.seed = settings.seed;

@@ -17,6 +17,11 @@ bool is_within(double value, double low, double high) noexcept {
   return value >= low && value <= high;
 }
 
+/// 25 ticks at the slowest rate that the device accepts: 0.05 s for most [s].
+double latest_tick_of_all(const DeviceSpecification& device) noexcept {
+  return std::max(0.003, 25 / (device.minimum_rate > 0 ? device.minimum_rate : 500));
+}
+
 }  // namespace
 
 ForceLimits limits_of(const DeviceSpecification& device, double period) {
@@ -29,7 +34,7 @@ ForceLimits limits_of(const DeviceSpecification& device, double period) {
   limits.torque_slew = device.maximum_torque / 0.01;
   limits.free_force = 0.02 * device.maximum_force;
   limits.free_torque = 0.02 * device.maximum_torque;
-  limits.latest_tick = std::clamp(3 * period, 0.003, 0.05);
+  limits.latest_tick = std::clamp(3 * period, 0.003, latest_tick_of_all(device));
   return limits;
 }
 
@@ -55,8 +60,8 @@ void check(const ForceLimits& limits, const DeviceSpecification& device) {
           "force limits: a pose is free below a tenth of the maximum at most");
   require(is_within(limits.ramp_time, 0.05, 60), "force limits: the ramp must take 0.05 to 60 s");
   require(is_within(limits.fade_time, 0, 0.002), "force limits: the fade must take 0 to 0.002 s");
-  require(is_within(limits.latest_tick, 0.0005, 0.05),
-          "force limits: the latest tick must be 0.0005 to 0.05 s");
+  require(is_within(limits.latest_tick, 0.0005, latest_tick_of_all(device)),
+          "force limits: the latest tick must be 0.0005 s to 25 ticks at the slowest rate of the device");
   require(is_within(limits.heating_time, 1, 100), "force limits: the motors heat in 1 to 100 s");
   require(is_within(limits.warm_temperature, 0, 0.95),
           "force limits: motors are warm from a share of 0 to 0.95 on");

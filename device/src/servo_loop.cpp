@@ -36,6 +36,9 @@ const RealTimeSetup& ServoLoop::start() {
   if (is_started_) refuse("servo loop: it was started before; make another one to run again");
   if (device_ != nullptr) {
     const DeviceSpecification& device = device_->specification();
+    if (settings_.rate > 0 && settings_.rate < device.minimum_rate) {
+      refuse("servo loop: the rate is below what the device accepts; see minimum_rate of its specification");
+    }
     force_tick_.period = report_.period > 0 ? double(report_.period) * 1e-9 : 1 / device.nominal_rate;
     const ForceLimits limits = settings_.force_limits.value_or(limits_of(device, force_tick_.period));
     if (!(limits.latest_tick > force_tick_.period)) {

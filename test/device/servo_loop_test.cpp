@@ -2,6 +2,7 @@
 #include <boost/test/unit_test.hpp>
 
 #include <atomic>
+#include <cmath>
 #include <cstdint>
 #include <limits>
 #include <stdexcept>
@@ -10,6 +11,7 @@
 #include <vector>
 
 #include "feeler/device/servo_loop.hpp"
+#include "feeler/device/simulated_phantom.hpp"
 
 using feeler::ServoLoop;
 using feeler::ServoSettings;
@@ -168,6 +170,54 @@ BOOST_AUTO_TEST_CASE(what_it_cannot_run_is_refused) {
   loop.start();
   loop.wait();
   BOOST_CHECK_THROW(loop.start(), std::invalid_argument);
+}
+
+BOOST_AUTO_TEST_CASE(a_loop_with_a_device_refuses_what_would_be_unsafe) {
+  feeler::SimulatedPhantom device([](double) { return feeler::DevicePose{}; });
+  BOOST_REQUIRE(bool(device.open()));
+  const auto render = [](const ServoTick&, const feeler::DeviceState&) { return feeler::DeviceWrench{}; };
+  BOOST_CHECK_THROW(ServoLoop(quiet(1000, 1), device, nullptr), std::invalid_argument);
+  ServoLoop slow(quiet(400, 1), device, render);  // the device needs 500 Hz
+  BOOST_CHECK_THROW(slow.start(), std::invalid_argument);
+  ServoSettings strong = quiet(1000, 1);
+  strong.force_limits = feeler::limits_of(device.specification());
+  strong.force_limits->maximum_force *= 2;
+  ServoLoop too_strong(strong, device, render);
+  BOOST_CHECK_THROW(too_strong.start(), std::invalid_argument);
+  ServoSettings hasty = quiet(1000, 1);
+  hasty.force_limits = feeler::limits_of(device.specification());
+  hasty.force_limits->latest_tick = 0.0009;
+  ServoLoop too_hasty(hasty, device, render);
+  BOOST_CHECK_THROW(too_hasty.start(), std::invalid_argument);
+}
+
+BOOST_AUTO_TEST_CASE(a_loop_with_a_device_that_is_not_open_ends_with_a_sentence) {
+  feeler::SimulatedPhantom device([](double) { return feeler::DevicePose{}; });
+  int rendered = 0;
+  ServoLoop loop(quiet(0, 10), device, [&rendered](const ServoTick&, const feeler::DeviceState&) {
+    ++rendered;
+    return feeler::DeviceWrench{};
+  });
+  loop.start();
+  BOOST_TEST(loop.wait().problem.find("The device was lost") == 0u);
+  BOOST_TEST(loop.wait().ticks == 1);
+  BOOST_TEST(rendered == 0);
+}
+
+BOOST_AUTO_TEST_CASE(the_last_thing_that_a_loop_writes_is_nothing) {
+  feeler::SimulatedPhantom device([](double) { return feeler::DevicePose{}; });
+  BOOST_REQUIRE(bool(device.open()));
+  ServoLoop loop(quiet(0, 1000), device, [](const ServoTick& tick, const feeler::DeviceState&) {
+    return feeler::DeviceWrench{{tick.index == 0 ? 0.0 : 5.0, 0, 0}, {0, 0, 0}};
+  });
+  loop.start();
+  const auto& report = loop.wait();
+  BOOST_TEST(report.force.peak_force > 3);  // 5 N, less what the heat of the motors takes
+  BOOST_TEST((loop.force_phase() == feeler::ForcePhase::on));
+  // The hand is at rest on its path again once nothing has pushed it for long.
+  feeler::DeviceState state;
+  for (int i = 0; i < 2000; ++i) device.read(state);
+  BOOST_TEST(std::abs(state.pose.position[0]) < 1e-4);
 }
 
 BOOST_AUTO_TEST_CASE(on_the_real_clock_it_runs_records_and_counts) {

@@ -23,7 +23,7 @@ struct ForceLimits {
   double ramp_time = 0.3;    ///< from nothing to the whole force, once the pose is free; at least 0.05 [s]
   double fade_time = 0.002;  ///< from the force to nothing, when a tick is late; at most 0.002 [s]
   double latest_tick =
-      0.003;  ///< longest time between two poses, and for which one may stay the latest; at most 0.05 [s]
+      0.003;  ///< longest time between two poses, and for which one may stay the latest; 0.0005 to 25 ticks at the device's slowest rate [s]
 
   double heating_time = 10;  ///< time constant of the motors' heating; 1 to 100 [s]
   double warm_temperature =

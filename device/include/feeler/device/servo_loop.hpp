@@ -62,7 +62,8 @@ class ServoLoop {
   ServoLoop(const ServoLoop&) = delete;
   ServoLoop& operator=(const ServoLoop&) = delete;
 
-  /// Starts the thread and returns what the system granted it. Once only: a second call is refused, and so are force limits that are none.
+  /// Starts the thread and returns what the system granted it. Once only: a second call is refused, and so are force
+  /// limits that are none and a rate below what the device accepts.
   const RealTimeSetup& start();
   /// Asks the loop to end after this tick; from any thread, the callback's too. Takes at most one period.
   void stop() noexcept { is_stopping_.store(true, std::memory_order_relaxed); }
