@@ -139,6 +139,7 @@ ForceFault ForceSafety::stopping_fault(const Tick& tick) noexcept {
 ForceFault ForceSafety::passing_fault(const Tick& tick) const noexcept {
   if (tick.status != DeviceStatus::ok) return ForceFault::device_warning;
   if (!(tick.state.motor_temperature < 1)) return ForceFault::hot_motors;
+  if (!(tick.age <= limits_.latest_tick)) return ForceFault::late_tick;
   if (!has_pose_) return ForceFault::none;
   if (!(tick.state.time - pose_time_ <= limits_.latest_tick)) return ForceFault::late_tick;
   if (tick.state.time <= pose_time_ && tick.now - renewed_at_ > limits_.latest_tick)

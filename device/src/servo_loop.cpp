@@ -81,13 +81,16 @@ void ServoLoop::run() {
 }
 
 bool ServoLoop::render_to_device(const ServoTick& tick) {
+  const std::int64_t read_at = clock_.now();
   const DeviceStatus status = device_->read(force_tick_.state);
   // A device that failed to push stays failed, even if it can still be read.
   if (force_tick_.status != DeviceStatus::fault) force_tick_.status = status;
   const bool has_pose = force_tick_.status == DeviceStatus::ok || force_tick_.status == DeviceStatus::warning;
   force_tick_.wanted = has_pose ? render_(tick, force_tick_.state) : DeviceWrench{};
   force_tick_.request = force_request_.exchange(ForceRequest::none, std::memory_order_relaxed);
-  force_tick_.now = double(clock_.now()) * 1e-9;
+  const std::int64_t now = clock_.now();
+  force_tick_.now = double(now) * 1e-9;
+  force_tick_.age = device_->lives_by_the_clock() ? double(now - read_at) * 1e-9 : 0;
 
   const DeviceWrench pushed = safety_->step(force_tick_);
   const DeviceStatus written = device_->write(pushed);

@@ -20,7 +20,7 @@ constexpr Word magic = 0x31'53'45'53'4C'45'45'46;  // "FEELSES1" in the order of
 template <class Tick, class Visit>
 void visit_tick(Tick& record, const Visit& visit) {
   auto& tick = record.tick;
-  visit(tick.now), visit(tick.period), visit(tick.status), visit(tick.request);
+  visit(tick.now), visit(tick.period), visit(tick.age), visit(tick.status), visit(tick.request);
   for (auto& p : tick.state.pose.position) visit(p);
   for (auto& q : tick.state.pose.orientation) visit(q);
   visit(tick.state.buttons), visit(tick.state.time), visit(tick.state.motor_temperature);

@@ -4,6 +4,7 @@
 // Time is scripted: the loop ticks on whole milliseconds, the device on half ones.
 #include <boost/test/unit_test.hpp>
 
+#include <algorithm>
 #include <cstdint>
 #include <functional>
 #include <limits>
@@ -280,6 +281,29 @@ BOOST_AUTO_TEST_CASE(a_renderer_that_hangs_is_silenced_by_the_servo_thread_of_op
   BOOST_TEST(outcome.half_milliseconds_to_silence <= 6);
   BOOST_TEST((outcome.report.force.first_fault == ForceFault::late_tick));
   BOOST_TEST(outcome.report.missed >= 19);
+}
+
+BOOST_AUTO_TEST_CASE(a_renderer_that_hung_does_not_push_for_the_pose_that_it_began_with) {
+  for (const auto& [name, make] : makers) {
+    BOOST_TEST_CONTEXT(name) {
+      bool is_back = false;
+      double most = 0;
+      const auto outcome = run(make, [&](Maker& maker, ServoLoop&, World& world) {
+        world.spend(20);
+        // From here on, what the motors of a device that is called directly are told.
+        world.is_silent = [&, silent = world.is_silent, &m = maker]() {
+          is_back = true;
+          if (m.dhd != nullptr) most = std::max(most, m.dhd->force[1]);
+          if (m.virtuose != nullptr) most = std::max(most, double(m.virtuose->wrench[1]));
+          return silent();
+        };
+        return DeviceWrench{{8, 0, 0}, {0, 0, 0}};  // it wants more than ever
+      });
+      BOOST_TEST(is_back);
+      BOOST_TEST((outcome.report.force.first_fault == ForceFault::late_tick));
+      BOOST_TEST(most <= 1);  // 1 N was on: it fades from there
+    }
+  }
 }
 
 BOOST_AUTO_TEST_CASE(a_servo_thread_that_stops_is_found_out_and_finds_no_force_when_it_goes_on) {

@@ -230,6 +230,16 @@ BOOST_AUTO_TEST_CASE(a_late_tick_fades_the_force_within_two_milliseconds_and_it_
   BOOST_TEST(session.push(force(4)).force[0] == 4 / 300.0, boost::test_tools::tolerance(1e-9));
 }
 
+BOOST_AUTO_TEST_CASE(a_wrench_that_took_too_long_is_late_though_its_pose_was_not) {
+  Session session;
+  session.start(force(4));
+  session.tick.age = 0.0031;
+  BOOST_TEST(session.push(force(9)).force[0] == 2, boost::test_tools::tolerance(1e-6));
+  BOOST_TEST((session.safety.fault() == ForceFault::late_tick));
+  session.tick.age = 0;
+  BOOST_TEST(is_silent(session.push(force(9))));
+}
+
 BOOST_AUTO_TEST_CASE(a_device_that_complains_is_let_go_at_once_until_the_pose_is_free) {
   struct Complaint {
     void (*cause)(Session&);

@@ -58,6 +58,9 @@ class Device {
   /// The figures of this device; valid before `open`, and refined by it where the device can be asked.
   virtual const DeviceSpecification& specification() const noexcept = 0;
 
+  /// Whether time passes for it while nobody reads: true of hardware. For a simulated device that a read advances, no tick is late.
+  virtual bool lives_by_the_clock() const noexcept { return true; }
+
   /// What the device said with its last `warning` or `fault`, as a sentence in storage that is never freed; empty if nothing.
   virtual const char* complaint() const noexcept { return ""; }
 

@@ -83,6 +83,7 @@ class ForceSafety {
   struct Tick {
     double now = 0;                          ///< on the clock of the loop [s]
     double period = 1e-3;                    ///< until the next tick, as planned [s]
+    double age = 0;                          ///< of the pose when its wrench was ready [s]
     DeviceStatus status = DeviceStatus::ok;  ///< of the write before and of this read, the worse of both
     ForceRequest request = ForceRequest::none;
     DeviceState state;    ///< as read

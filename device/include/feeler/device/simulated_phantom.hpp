@@ -30,6 +30,7 @@ class SimulatedPhantom final : public Device {
   DeviceStatus write(const DeviceWrench& wrench) noexcept override;
   void close() noexcept override { is_open_ = false; }
   const DeviceSpecification& specification() const noexcept override { return settings_.specification; }
+  bool lives_by_the_clock() const noexcept override { return false; }
 
   /// Where the handle truly is, before the encoders.
   const DevicePose& exact_pose() const noexcept { return hand_.pose(); }
