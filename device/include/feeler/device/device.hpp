@@ -61,7 +61,7 @@ class Device {
   /// Whether time passes for it while nobody reads: true of hardware. For a simulated device that a read advances, no tick is late.
   virtual bool lives_by_the_clock() const noexcept { return true; }
 
-  /// What the device said with its last `warning` or `fault`, as a sentence in storage that is never freed; empty if nothing.
+  /// What the device said with its last `warning` or `fault`, as a sentence; empty if nothing. Valid until the next call.
   virtual const char* complaint() const noexcept { return ""; }
 
  protected:
