@@ -7,6 +7,7 @@
 
 #include "feeler/render/candidate_contacts.hpp"
 #include "scenes/cavity.hpp"
+#include "scenes/spline.hpp"
 #include "scenes/steps.hpp"
 #include "scenes/sulcus.hpp"
 #include "scenes/terrain.hpp"
@@ -62,6 +63,19 @@ BOOST_AUTO_TEST_CASE(a_tick_allocates_nothing_and_the_count_would_show_it) {
   check(scenes::steps_with_prism());
   check(scenes::terrain(71));
   check(scenes::sulcus());
+}
+
+BOOST_AUTO_TEST_CASE(a_tick_of_a_tool_of_several_pieces_allocates_nothing) {
+  const auto scene = scenes::spline(2e-4);
+  const TriangleMesh<double> object(scene.vertices, scene.triangles);
+  HapticRenderer renderer(object, CompoundTool<ConvexPolytope<double>>::hulls_of(scene.pieces), scene.settings());
+  renderer.reset(scene.start);
+  int contact_ticks = 0;
+  const auto allocations = feeler_test::allocations_during([&] {
+    for (int i = 1; i <= 1000; ++i) contact_ticks += renderer.update(scene.motion(i * 1e-3)).contacts.empty() ? 0 : 1;
+  });
+  BOOST_TEST(allocations == 0);
+  BOOST_TEST(contact_ticks > 100);
 }
 #else
 BOOST_AUTO_TEST_CASE(allocations_are_not_counted_with_a_sanitizer) {

@@ -9,7 +9,6 @@
 
 #include "scenes/cavity.hpp"
 #include "scenes/spline.hpp"
-#include "support/allocation_count.hpp"
 #include "support/rendering.hpp"
 
 using namespace feeler;
@@ -162,17 +161,5 @@ BOOST_AUTO_TEST_CASE(a_splined_shaft_never_penetrates_its_hole_and_hostile_devic
     }
   }
 }
-
-#if FEELER_TEST_COUNTS_ALLOCATIONS
-BOOST_AUTO_TEST_CASE(a_tick_of_a_compound_tool_allocates_nothing) {
-  const auto scene = scenes::spline(2e-4);
-  const TriangleMesh<double> object(scene.vertices, scene.triangles);
-  HapticRenderer renderer(object, Compound::hulls_of(scene.pieces), scene.settings());
-  renderer.reset(scene.start);
-  BOOST_TEST(feeler_test::allocations_during([&] {
-    for (int i = 1; i <= 300; ++i) renderer.update(scene.motion(i * 1e-3));
-  }) == 0);
-}
-#endif
 
 BOOST_AUTO_TEST_SUITE_END()
