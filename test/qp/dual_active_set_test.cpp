@@ -3,6 +3,7 @@
 #include <boost/test/unit_test.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -119,6 +120,94 @@ BOOST_AUTO_TEST_CASE(a_step_called_optimal_meets_every_row_in_float_too) {
       BOOST_ERROR("problem " << i << " misses a row by " << missed << " at a length of " << length);
   }
   BOOST_TEST(optimal > 15000);
+}
+
+BOOST_AUTO_TEST_CASE(a_start_from_the_rows_of_the_answer_finds_it_at_once) {
+  constexpr unsigned seed = 8;
+  BOOST_TEST_MESSAGE("seed " << seed);
+  std::mt19937 bits(seed);
+  DualActiveSet<double> solver;
+  Solution cold, warm;
+  int optimal = 0, at_once = 0;
+  for (int i = 0; i < 6000; ++i) {
+    const double scale = feeler_test::magnitude(bits, -6, 3);
+    const Problem problem =
+        feeler_test::random_problem<double>(bits, i % feeler_test::random_problem_families, scale);
+    const QpStatus status = solver.solve(problem, cold);
+    feeler_test::check_answer(problem, solver.solve(problem, feeler::WarmStart(cold), warm), warm, scale,
+                              "problem " + std::to_string(i));
+    if (status != QpStatus::optimal) continue;
+    ++optimal;
+    at_once += warm.iterations <= 1 ? 1 : 0;
+  }
+  BOOST_TEST(optimal > 4000);
+  BOOST_TEST(at_once > 0.9 * optimal);
+}
+
+BOOST_AUTO_TEST_CASE(a_start_from_any_rows_ends_at_the_same_answer) {
+  constexpr unsigned seed = 9;
+  BOOST_TEST_MESSAGE("seed " << seed);
+  std::mt19937 bits(seed);
+  DualActiveSet<double> solver;
+  Solution solution;
+  for (int i = 0; i < 6000; ++i) {
+    const double scale = feeler_test::magnitude(bits, -6, 3);
+    const Problem problem =
+        feeler_test::random_problem<double>(bits, i % feeler_test::random_problem_families, scale);
+    feeler::WarmStart start;  // repeated rows and rows that do not exist among them
+    for (int k = feeler_test::below(bits, 7); k > 0; --k)
+      start.rows.push_back(feeler_test::below(bits, 12) - 2);
+    const QpStatus status = solver.solve(problem, start, solution);
+    feeler_test::check_answer(problem, status, solution, scale, "problem " + std::to_string(i));
+    Solution again;
+    BOOST_TEST((solver.solve(problem, start, again) == status));
+    BOOST_TEST(feeler_test::is_same(solution, again));
+  }
+}
+
+BOOST_AUTO_TEST_CASE(hundreds_of_rows_of_any_size_that_nearly_depend_are_solved_to_a_nanometre) {
+  // As the worst of the public dense test problems: norms from 1 to 6000, few directions with small errors,
+  // opposite rows.
+  constexpr unsigned seed = 10;
+  BOOST_TEST_MESSAGE("seed " << seed);
+  std::mt19937 bits(seed);
+  const auto random_six = [&bits] {
+    feeler::Vector6<double> v;
+    for (int i = 0; i < 6; ++i) v[i] = feeler_test::unit(bits);
+    return v;
+  };
+  DualActiveSet<double> solver;
+  solver.tolerance = 1e-10;
+  Solution solution;
+  for (int i = 0; i < 1500; ++i) {
+    Problem problem;
+    feeler::Matrix6<double> root;
+    for (int j = 0; j < 6; ++j) root.col(j) = random_six();
+    problem.hessian = root * root.transpose() + 1e-3 * feeler::Matrix6<double>::Identity();
+    const feeler::Vector6<double> feasible = random_six(), target = 3 * random_six();
+    problem.gradient = -(problem.hessian * target);
+    std::array<feeler::Vector6<double>, 6> directions;
+    for (auto& direction : directions) direction = random_six().normalized();
+    const int rank = 2 + feeler_test::below(bits, 5), rows = 30 + feeler_test::below(bits, 226);
+    const double error = i % 3 == 0 ? 0 : feeler_test::magnitude(bits, -9, -3);
+    while (problem.row_count < rows) {
+      feeler::Vector6<double> row = error * random_six();
+      for (int j = 0; j < rank; ++j) row += feeler_test::unit(bits) * directions[std::size_t(j)];
+      if (problem.row_count > 0 && feeler_test::below(bits, 3) == 0) {
+        row = problem.rows[std::size_t(feeler_test::below(bits, problem.row_count))];
+        row = (feeler_test::below(bits, 2) == 0 ? -1 : 1) * row.normalized() + error * random_six();
+      }
+      if (row.norm() < 0.01) continue;
+      const double norm = feeler_test::magnitude(bits, 0, 3.78);
+      const double room = feeler_test::below(bits, 20) == 0 ? 0 : 0.3 * feeler_test::fraction(bits);
+      row *= norm / row.norm();
+      problem.add_row(row, row.dot(feasible) - norm * room);
+    }
+    BOOST_TEST((solver.solve(problem, solution) == QpStatus::optimal));
+    const auto kkt = feeler_test::kkt_residuals(feeler_test::WideProblem(problem), solution);
+    BOOST_TEST(kkt.stationarity < 1e-11L);
+    BOOST_TEST(std::max(kkt.violation, kkt.slackness) < 1e-9L);
+  }
 }
 
 BOOST_AUTO_TEST_CASE(units_that_differ_by_a_power_of_two_give_the_same_bits) {

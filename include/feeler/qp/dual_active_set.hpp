@@ -4,24 +4,35 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstddef>
 #include <limits>
 
+#include "feeler/qp/active_operators.hpp"
+#include "feeler/qp/inverse_hessian.hpp"
+#include "feeler/qp/lanes.hpp"
 #include "feeler/qp/problem.hpp"
 #include "feeler/qp/qp_solver.hpp"
+#include "feeler/qp/row_scan.hpp"
 #include "feeler/qp/solution.hpp"
+#include "feeler/qp/warm_start.hpp"
 
 namespace feeler {
 
 /// Dual active set: starts at the unconstrained minimum and adds the most violated row until none is left.
 ///
-/// Source: D. Goldfarb, A. Idnani, "A numerically stable dual method for solving strictly convex quadratic programs", Mathematical
-/// Programming 27 (1983), in the operators of its section 3: P = H⁻¹ − H⁻¹N(NᵀH⁻¹N)⁻¹NᵀH⁻¹ projects onto the null space of
-/// the active rows N, and N* = (NᵀH⁻¹N)⁻¹NᵀH⁻¹ gives their multipliers. Both are kept by rank-one updates; a row that
-/// is nearly dependent on the active ones is projected twice. The row to add maximises violation²/(aᵀPa) (dual steepest edge).
+/// Source: D. Goldfarb, A. Idnani, "A numerically stable dual method for solving strictly convex quadratic
+/// programs", Mathematical Programming 27 (1983), in the operators of its section 3,
+/// `detail::ActiveOperators`, kept by rank-one updates; a row that is nearly dependent on the active ones is
+/// projected twice. The row to add maximises violation²/(aᵀPa) (dual steepest edge, `detail::RowScan`). An
+/// answer is optimal once a fresh look at all rows and at the gradient agrees, and infeasible once rows in
+/// conflict cancel; where rounding prevents both, everything is done again with operators from an orthogonal
+/// factor.
 ///
-/// Rows are met to `tolerance` [m]. Rows that make an angle below about 1e-8 rad with the span of the active ones count as dependent.
-/// Cost: 36 multiplications a row and iteration, about 0.2 to 1 µs in all; noexcept, no allocation.
-template <RealScalar ScalarType>
+/// Rows are met to `tolerance` [m]. Rows that make an angle below about 1e-8 rad with the span of the active
+/// ones count as dependent. The same input gives the same bits, on every processor and with every number of
+/// lanes. Cost: two products with every row, and one more for each row added; noexcept, no allocation.
+/// @tparam lanes  rows computed side by side; by default what the compiler may use
+template <RealScalar ScalarType, int lanes = detail::lanes_of<ScalarType>>
 class DualActiveSet {
  public:
   using Scalar = ScalarType;
@@ -32,249 +43,366 @@ class DualActiveSet {
   Scalar tolerance = Scalar(2e-13);
 
   QpStatus solve(const Problem& problem, Solution& solution) noexcept {
+    return solve(problem, WarmStart{}, solution);
+  }
+
+  /// Starts from rows that are likely to be active.
+  QpStatus solve(const Problem& problem, const WarmStart& start, Solution& solution) noexcept {
     solution.active.clear();
     solution.conflict.clear();
     solution.iterations = 0;
     solution.step.setZero();
-    if (!invert(problem.hessian)) return QpStatus::not_positive_definite;
-    projector_ = inverse_;
-    count_ = 0;
-    Vector6<Scalar> x = -(inverse_ * problem.gradient);
+    if (!inverse_.compute(problem.hessian)) return QpStatus::not_positive_definite;
+    std::copy_n(problem.gradient.data(), 6, gradient_.begin());
 
-    const int limit = 8 * (problem.row_count + 8);
-    QpStatus status = QpStatus::iteration_limit;
-    while (solution.iterations < limit) {
-      const int entering = most_violated(problem, x);
-      if (entering < 0) {
-        ++solution.iterations;
-        if (correct_active_rows(problem, x)) continue;
-        status = QpStatus::optimal;
-        break;
-      }
-      status = enter(problem, entering, limit, x, solution);
-      if (status != QpStatus::optimal) break;
-      status = QpStatus::iteration_limit;
-    }
-    if (!is_finite(x)) {  // nor was the input: no step is the only one that is sure to be finite
+    is_careful_ = false;
+    bounds_ = problem.bounds.data();
+    accepted_ = tolerance;
+    // What rounding leaves of a row that is projected twice, or more.
+    dependent_angle_ = std::max(Scalar(1e-8), Scalar(16 * std::numeric_limits<Scalar>::epsilon()));
+    Outcome outcome = run(problem, start, solution);
+    if (outcome == Outcome::in_doubt) outcome = run_with_care(problem, solution);
+    if (!is_finite()) {  // nor was the input: no step is the only one that is sure to be finite
       solution.conflict.clear();
       return QpStatus::iteration_limit;
     }
-    solution.step = x;
-    for (int i = 0; i < count_; ++i) solution.active.push_back({active_[index(i)], multiplier_[index(i)]});
-    return status;
+    std::copy_n(x_.begin(), 6, solution.step.data());
+    for (int i = 0; i < Operators::slot_count; ++i) {
+      if (operators_.is_used(i)) solution.active.push_back({slots_[index(i)], multipliers_[index(i)]});
+    }
+    if (outcome == Outcome::optimal) return QpStatus::optimal;
+    return outcome == Outcome::infeasible ? QpStatus::infeasible : QpStatus::iteration_limit;
   }
 
  private:
+  using Six = detail::Six<Scalar>;
+  using Operators = detail::ActiveOperators<Scalar, lanes>;
+
+  enum class Outcome { optimal, infeasible, in_doubt };
+  enum class Entry { done, refused, infeasible, in_doubt };
+
   static std::size_t index(int i) noexcept { return std::size_t(i); }
 
-  /// H⁻¹ = L⁻ᵀD⁻¹L⁻¹ by H = LDLᵀ, without square roots; false unless H is positive definite.
-  bool invert(const Matrix6<Scalar>& h) noexcept {
-    if (is_diagonal(h)) {
-      for (int j = 0; j < 6; ++j) {
-        if (!is_pivot(h(j, j))) return false;
-      }
-      inverse_ = h.diagonal().cwiseInverse().asDiagonal();
-      return true;
+  /// Starts again with operators from an orthogonal factor, and uses up most of the tolerance, so that rows
+  /// that agree within it meet in more than a point.
+  Outcome run_with_care(const Problem& problem, Solution& solution) noexcept {
+    is_careful_ = true;
+    const Scalar smallest_angle = 128 * std::numeric_limits<Scalar>::epsilon();
+    Scalar rounding = std::min(rounding_at(x_), rounding_at(inverse_.inverse_times(gradient_)));
+    for (const double coarseness : {1.0, 1.0, 30.0, 1e6}) {
+      relax_bounds(problem, rounding);
+      dependent_angle_ = Scalar(coarseness) * smallest_angle;
+      const Outcome outcome = run(problem, WarmStart{}, solution);
+      rounding = rounding_at(x_);
+      if (outcome == Outcome::infeasible) return outcome;
+      if (outcome == Outcome::optimal &&
+          !scan_.measure_excess(problem, problem.bounds.data(), x_, tolerance, 2 * rounding))
+        return outcome;
     }
-    Matrix6<Scalar> l, m;       // unit lower triangles of L and L⁻¹
-    Vector6<Scalar> d_inverse;  // D⁻¹
-    for (int j = 0; j < 6; ++j) {
-      Vector6<Scalar> scaled;  // row j of LD
-      Scalar pivot = h(j, j);
-      for (int k = 0; k < j; ++k) {
-        scaled[k] = l(j, k);
-        l(j, k) *= d_inverse[k];
-        pivot -= scaled[k] * l(j, k);
-      }
-      if (!is_pivot(pivot)) return false;
-      d_inverse[j] = Scalar(1) / pivot;
-      for (int i = j + 1; i < 6; ++i) {  // below the diagonal LD for now
-        Scalar sum = h(i, j);
-        for (int k = 0; k < j; ++k) sum -= l(i, k) * l(j, k);
-        l(i, j) = sum;
-      }
-    }
-    for (int j = 0; j < 6; ++j) {
-      m(j, j) = Scalar(1);
-      for (int i = j + 1; i < 6; ++i) {
-        Scalar sum = -l(i, j);
-        for (int k = j + 1; k < i; ++k) sum -= l(i, k) * m(k, j);
-        m(i, j) = sum;
-      }
-    }
-    for (int j = 0; j < 6; ++j) {
-      for (int i = j; i < 6; ++i) {
-        Scalar sum(0);
-        for (int k = i; k < 6; ++k) sum += m(k, i) * d_inverse[k] * m(k, j);
-        inverse_(i, j) = inverse_(j, i) = sum;
-      }
-    }
-    return true;
+    return Outcome::in_doubt;
   }
 
-  static bool is_pivot(Scalar pivot) noexcept {
-    return pivot > Scalar(0) && pivot < std::numeric_limits<Scalar>::max();
-  }
-
-  static bool is_diagonal(const Matrix6<Scalar>& h) noexcept {
-    for (int j = 0; j < 6; ++j) {
-      for (int i = j + 1; i < 6; ++i) {
-        if (h(i, j) != Scalar(0)) return false;
-      }
+  void relax_bounds(const Problem& problem, Scalar rounding) noexcept {
+    constexpr double share = 0.875;
+    for (int k = 0; k < problem.row_count; ++k) {
+      const Scalar allowed = tolerance + detail::product(rounding, size_of(row_of(problem, k)));
+      relaxed_bounds_[index(k)] = problem.bounds[index(k)] - detail::product(Scalar(share), allowed);
     }
-    return true;
+    bounds_ = relaxed_bounds_.data();
+    accepted_ = Scalar(1 - share) * tolerance;
   }
 
-  bool is_finite(const Vector6<Scalar>& x) const noexcept {
+  Outcome run(const Problem& problem, const WarmStart& start, Solution& solution) noexcept {
+    operators_.reset(inverse_);
+    multipliers_.fill(Scalar(0));
+    x_ = inverse_.inverse_times(gradient_);
+    for (Scalar& coordinate : x_) coordinate = -coordinate;
+    for (const int row : start.rows) assume(problem, row);
+    drop_negative();
+
+    bool is_weighed = operators_.used() == 0, is_strict = false;
+    int entering = -1;
+    if (is_weighed) {
+      entering = scan_.start(problem, bounds_, inverse_, x_, accepted_);
+      if (entering < 0) return Outcome::optimal;
+    }
+    const int limit = (is_careful_ ? 16 : 8) * (problem.row_count + 8);
+    while (solution.iterations <= limit) {
+      while (entering >= 0) {
+        const Entry entry = enter(problem, limit, solution, entering);
+        if (entry == Entry::infeasible) return Outcome::infeasible;
+        if (entry == Entry::in_doubt) return Outcome::in_doubt;
+        is_strict = is_strict || entry == Entry::refused;
+      }
+      ++solution.iterations;
+      const bool is_violated = is_strict
+                                   ? scan_.measure_excess(problem, bounds_, x_, accepted_, rounding_at(x_))
+                                   : scan_.measure(problem, bounds_, x_, accepted_);
+      if (is_violated) {
+        mark_active();
+        if (!is_weighed) scan_.weigh(problem, inverse_, operators_.projector());
+        is_weighed = true;
+        entering = scan_.select(problem, accepted_);
+      }
+      if (entering < 0 && (operators_.used() == 0 || !refine())) return Outcome::optimal;
+    }
+    return Outcome::in_doubt;
+  }
+
+  bool is_finite() const noexcept {
+    using std::abs;
     using std::isfinite;
-    Scalar sum = x.cwiseAbs().sum();
-    for (int i = 0; i < count_; ++i) sum += multiplier_[index(i)];
+    Scalar sum(0);
+    for (std::size_t i = 0; i < 6; ++i) sum += abs(x_[i]) + multipliers_[i];
     return isfinite(sum);
   }
 
   /// Rounding of a row's value at x, for a row of size one.
-  static Scalar rounding_at(const Vector6<Scalar>& x) noexcept {
-    return 8 * std::numeric_limits<Scalar>::epsilon() * x.template lpNorm<Eigen::Infinity>();
+  static Scalar rounding_at(const Six& x) noexcept {
+    return 8 * std::numeric_limits<Scalar>::epsilon() * largest_of(x);
+  }
+  static Scalar largest_of(const Six& v) noexcept {
+    Scalar largest(0);
+    for (const Scalar& entry : v) largest = std::max(largest, magnitude(entry));
+    return largest;
+  }
+  static Scalar magnitude(const Scalar& value) noexcept { return value < Scalar(0) ? Scalar(-value) : value; }
+  static Scalar size_of(const Six& a) noexcept {
+    Scalar sum(0);
+    for (const Scalar& entry : a) sum += magnitude(entry);
+    return sum;
   }
 
-  /// Undoes the drift of x off the active rows where it exceeds the tolerance, and says whether it did.
-  bool correct_active_rows(const Problem& problem, Vector6<Scalar>& x) noexcept {
-    using std::abs;
-    const Scalar rounding = rounding_at(x);
-    Vector6<Scalar> correction = Vector6<Scalar>::Zero();
-    bool has_drifted = false;
-    for (int i = 0; i < count_; ++i) {
-      const auto row = index(active_[index(i)]);
-      const Vector6<Scalar>& a = problem.rows[row];
-      const Scalar lacking = problem.bounds[row] - a.dot(x);
-      has_drifted = has_drifted || abs(lacking) > tolerance + rounding * a.template lpNorm<1>();
-      correction += lacking * dual_[index(i)];
+  static Six row_of(const Problem& problem, int k) noexcept {
+    Six a;
+    for (int j = 0; j < 6; ++j) a[index(j)] = problem.rows.column(j)[k];
+    return a;
+  }
+
+  /// Whether no step along P·a meets the row that lacks `violation`: where its angle with the span of the
+  /// active rows is too small or, with care, where the step leads far off.
+  bool is_dependent(const Six& a, Scalar violation, Scalar slope) const noexcept {
+    if (operators_.used() == Operators::slot_count) return true;
+    const Scalar whole = detail::dot(a, inverse_.inverse_times(a));
+    if (!(slope > dependent_angle_ * dependent_angle_ * whole)) return true;
+    const Scalar clear = Scalar(1e-12), far = Scalar(1e6);
+    if (!is_careful_ || slope > clear * whole) return false;
+    return violation / slope * largest_of(image_.step()) > far * (largest_of(x_) + violation / size_of(a));
+  }
+
+  void mark_active() noexcept {
+    for (int i = 0; i < Operators::slot_count; ++i) {
+      if (operators_.is_used(i)) scan_.set_active(slots_[index(i)]);
     }
-    if (!has_drifted) return false;
-    x += correction;
-    const Vector6<Scalar> curved = problem.hessian * correction;
-    for (int i = 0; i < count_; ++i) {
-      const Scalar u = multiplier_[index(i)] + dual_[index(i)].dot(curved);
-      multiplier_[index(i)] = u > Scalar(0) ? u : Scalar(0);
+  }
+
+  /// Makes a row active with equality, whatever the sign of its multiplier; leaves out rows that depend on
+  /// others.
+  void assume(const Problem& problem, int row) noexcept {
+    if (row < 0 || row >= problem.row_count || operators_.used() == Operators::slot_count) return;
+    for (int i = 0; i < Operators::slot_count; ++i) {
+      if (operators_.is_used(i) && slots_[index(i)] == row) return;
     }
+    const Six a = row_of(problem, row);
+    const Scalar whole = detail::dot(a, inverse_.inverse_times(a));
+    operators_.apply(a, image_);
+    const Scalar slope = detail::dot(a, image_.step());
+    if (!(slope > Scalar(1e-3) * whole)) return;
+    const Scalar step = (bounds_[row] - detail::dot(a, x_)) / slope;
+    move(step);
+    activate(row, a, step, slope);
+  }
+
+  /// Drops active rows until no multiplier is negative.
+  void drop_negative() noexcept {
+    while (operators_.used() > 0) {
+      const auto least = std::min_element(multipliers_.begin(), multipliers_.end());
+      if (!(*least < Scalar(0))) return;
+      const int slot = int(least - multipliers_.begin());
+      const Six dual = operators_.dual(slot);
+      const Scalar curvature = curve(dual);
+      const Scalar step = -*least / curvature;
+      for (std::size_t j = 0; j < 6; ++j) x_[j] += detail::product(step, dual[j]);
+      for (int i = 0; i < Operators::slot_count; ++i) {
+        multipliers_[index(i)] += detail::product(step, image_.share(i));
+      }
+      release(slot, dual, curvature);
+    }
+  }
+
+  /// Checks the active rows and the gradient afresh; where they are off, takes one step of Newton's method
+  /// and returns true.
+  bool refine() noexcept {
+    const Scalar rounding = rounding_at(x_);
+    const Six bent = inverse_.hessian_times(x_);
+    Six residual, lacking{};  // of the gradient, and of the rows
+    Scalar size(0);
+    bool is_off = false;
+    for (std::size_t j = 0; j < 6; ++j) {
+      residual[j] = bent[j] + gradient_[j];
+      size += magnitude(bent[j]) + magnitude(gradient_[j]);
+    }
+    for (int i = 0; i < Operators::slot_count; ++i) {
+      if (!operators_.is_used(i)) continue;
+      const Six& a = operators_.normal(i);
+      const Scalar& multiplier = multipliers_[index(i)];
+      const Scalar row_size = size_of(a);
+      for (std::size_t j = 0; j < 6; ++j) residual[j] -= detail::product(multiplier, a[j]);
+      size += detail::product(multiplier, row_size);
+      lacking[index(i)] = bounds_[slots_[index(i)]] - detail::dot(a, x_);
+      is_off = is_off || magnitude(lacking[index(i)]) > accepted_ + detail::product(rounding, row_size);
+    }
+    is_off = is_off || size_of(residual) > Scalar(1024) * std::numeric_limits<Scalar>::epsilon() * size;
+    if (!is_off) return false;
+
+    const Six across = operators_.step_of(lacking);
+    const Six pulled = inverse_.hessian_times(across);
+    for (std::size_t j = 0; j < 6; ++j) residual[j] += pulled[j];
+    operators_.apply(residual, image_);
+    for (int j = 0; j < 6; ++j) x_[index(j)] += across[index(j)] - image_.step(j);
+    for (int i = 0; i < Operators::slot_count; ++i) multipliers_[index(i)] += image_.share(i);
+    drop_negative();
     return true;
   }
 
-  int most_violated(const Problem& problem, const Vector6<Scalar>& x) const noexcept {
-    const Scalar rounding = rounding_at(x);
-    Scalar best = Scalar(0);
-    int entering = -1;
-    for (int k = 0; k < problem.row_count; ++k) {
-      const Vector6<Scalar>& a = problem.rows[index(k)];
-      const Scalar violation = problem.bounds[index(k)] - a.dot(x);
-      if (!(violation > tolerance) || !(violation > tolerance + rounding * a.template lpNorm<1>()) || is_active(k)) continue;
-      const Scalar free_part = a.dot(projector_ * a);
-      const Scalar whole = a.dot(inverse_ * a);
-      const Scalar score = violation * violation / (free_part > Scalar(1e-3) * whole ? free_part : Scalar(1e-3) * whole);
-      if (score > best) {
-        best = score;
-        entering = k;
-      }
-    }
-    return entering;
-  }
-
-  bool is_active(int row) const noexcept {
-    for (int i = 0; i < count_; ++i) {
-      if (active_[index(i)] == row) return true;
-    }
-    return false;
-  }
-
   /// Makes row p satisfied with equality, dropping rows whose multiplier would turn negative.
-  QpStatus enter(const Problem& problem, int p, int limit, Vector6<Scalar>& x, Solution& solution) noexcept {
-    const Vector6<Scalar>& a = problem.rows[index(p)];
-    const Scalar whole = a.dot(inverse_ * a);
-    // Squared sine under which a row is dependent: of 1e-8 rad, or of what rounding leaves of a row projected twice.
-    const Scalar rounding = 16 * std::numeric_limits<Scalar>::epsilon();
-    const Scalar dependence = std::max(Scalar(1e-16), Scalar(rounding * rounding));
-    Scalar multiplier = Scalar(0);
+  /// @param p  afterwards the next row to add, or −1
+  Entry enter(const Problem& problem, int limit, Solution& solution, int& p) noexcept {
+    const int row = p;
+    const Six a = row_of(problem, row);
+    const Scalar bound = bounds_[row];
+    const Scalar whole = detail::dot(a, inverse_.inverse_times(a));
+    const Scalar excused = detail::product(rounding_at(x_), size_of(a));
+    p = -1;
+    if (!(bound - detail::dot(a, x_) > accepted_ + excused))
+      return Entry::refused;  // a fresh look says that it is met
+    Scalar multiplier(0);
     while (++solution.iterations <= limit) {
-      Vector6<Scalar> z = projector_ * a;
-      std::array<Scalar, 6> r;
-      for (int i = 0; i < count_; ++i) r[index(i)] = dual_[index(i)].dot(a);
-      if (a.dot(z) < Scalar(1e-3) * whole) project_again(problem, z);
-      const Scalar slope = a.dot(z);
-      const bool is_dependent = count_ == 6 || !(slope > dependence * whole);
+      operators_.apply(a, image_);
+      Scalar slope = detail::dot(a, image_.step());
+      if (slope < Scalar(1e-3) * whole) {
+        operators_.project_again(image_);
+        slope = detail::dot(a, image_.step());
+      }
+      const Scalar violation = bound - detail::dot(a, x_);
+      const bool has_no_step = is_dependent(a, violation, slope);
 
-      Scalar dual_step = std::numeric_limits<Scalar>::infinity();
+      const Scalar infinity = std::numeric_limits<Scalar>::infinity();
+      Scalar dual_step = infinity;
       int leaving = -1;
-      for (int i = 0; i < count_; ++i) {
-        if (r[index(i)] > Scalar(0) && multiplier_[index(i)] < dual_step * r[index(i)]) {
-          dual_step = multiplier_[index(i)] / r[index(i)];
+      for (int i = 0; i < Operators::slot_count; ++i) {
+        const Scalar& share = image_.share(i);
+        if (share > Scalar(0) && multipliers_[index(i)] < dual_step * share) {
+          dual_step = multipliers_[index(i)] / share;
           leaving = i;
         }
       }
-      if (is_dependent && leaving < 0) {
-        solution.conflict.push_back(p);
-        for (int i = 0; i < count_; ++i) {
-          if (r[index(i)] < -Scalar(1e-9)) solution.conflict.push_back(active_[index(i)]);
-        }
-        return QpStatus::infeasible;
-      }
-      const Scalar violation = problem.bounds[index(p)] - a.dot(x);
-      const Scalar full_step = is_dependent ? std::numeric_limits<Scalar>::infinity() : violation / slope;
+      if (has_no_step && leaving < 0) return conclude_conflict(row, a, violation, solution);
+
+      const Scalar full_step = has_no_step ? infinity : Scalar(violation / slope);
       const bool is_full = full_step <= dual_step;
-      const Scalar t = is_full ? full_step : dual_step;
-      if (!is_dependent) x += t * z;
-      for (int i = 0; i < count_; ++i) {
-        const Scalar u = multiplier_[index(i)] - t * r[index(i)];
-        multiplier_[index(i)] = u > Scalar(0) ? u : Scalar(0);
-      }
-      multiplier += t;
+      const Scalar step = is_full ? full_step : dual_step;
+      if (!has_no_step) move(step);
+      multiplier += step;
       if (is_full) {
-        add(p, multiplier, z, slope, r);
-        return QpStatus::optimal;
+        clamp_multipliers();
+        scan_.set_active(row);
+        p = scan_.add(problem, image_.step(), step, slope, accepted_);
+        activate(row, a, multiplier, slope);
+        if (is_careful_) refine();
+        return Entry::done;
       }
-      drop(problem, leaving);
+      if (has_no_step) move_multipliers(step);
+      clamp_multipliers();
+      const Six z = image_.step();
+      const Six dual = operators_.dual(leaving);
+      const Scalar curvature = curve(dual);
+      scan_.drop(problem, z, has_no_step ? Scalar(0) : step, dual, curvature);
+      scan_.set_violation(slots_[index(leaving)], Scalar(0));
+      release(leaving, dual, curvature);
     }
-    return QpStatus::iteration_limit;
+    return Entry::in_doubt;
   }
 
-  /// Removes from z what rounding left of it along the active rows.
-  void project_again(const Problem& problem, Vector6<Scalar>& z) const noexcept {
-    std::array<Scalar, 6> residual;
-    for (int i = 0; i < count_; ++i) residual[index(i)] = problem.rows[index(active_[index(i)])].dot(z);
-    for (int i = 0; i < count_; ++i) z -= residual[index(i)] * dual_[index(i)];
-  }
-
-  void add(int row, Scalar multiplier, const Vector6<Scalar>& z, Scalar slope,
-           const std::array<Scalar, 6>& r) noexcept {
-    const Vector6<Scalar> direction = z / slope;
-    for (int i = 0; i < count_; ++i) dual_[index(i)] -= r[index(i)] * direction;
-    projector_ -= z * direction.transpose();
-    active_[index(count_)] = row;
-    multiplier_[index(count_)] = multiplier;
-    dual_[index(count_)] = direction;
-    ++count_;
-  }
-
-  void drop(const Problem& problem, int leaving) noexcept {
-    const Vector6<Scalar> u = dual_[index(leaving)];
-    const Vector6<Scalar> curved = problem.hessian * u;
-    const Scalar length = u.dot(curved);
-    --count_;
-    for (int i = leaving; i < count_; ++i) {
-      active_[index(i)] = active_[index(i + 1)];
-      multiplier_[index(i)] = multiplier_[index(i + 1)];
-      dual_[index(i)] = dual_[index(i + 1)];
+  /// No step meets row p, as it is a sum of active ones with negative shares: then these rows contradict each
+  /// other.
+  ///
+  /// That is in doubt where the sum leaves a rest, or where all of them together agree within their
+  /// tolerances.
+  Entry conclude_conflict(int p, const Six& a, Scalar violation, Solution& solution) noexcept {
+    const Scalar rounding = rounding_at(x_);
+    const auto allowed = [&](const Six& row) { return tolerance + detail::product(rounding, size_of(row)); };
+    Six rest = a;
+    Scalar slack = allowed(a);
+    for (int i = 0; i < Operators::slot_count; ++i) {
+      if (!operators_.is_used(i)) continue;
+      const Six& normal = operators_.normal(i);
+      slack -= detail::product(image_.share(i), allowed(normal));
+      violation -=
+          detail::product(image_.share(i), bounds_[slots_[index(i)]] -
+                                               detail::dot(normal, x_));  // x may have drifted off them
+      for (std::size_t j = 0; j < 6; ++j) rest[j] -= detail::product(image_.share(i), normal[j]);
     }
-    for (int i = 0; i < count_; ++i) dual_[index(i)] -= (dual_[index(i)].dot(curved) / length) * u;
-    projector_ += (u / length) * u.transpose();
-    if (count_ == 0) projector_ = inverse_;
+    const Scalar allowed_rest =
+        std::max(Scalar(1e-12), Scalar(64 * std::numeric_limits<Scalar>::epsilon())) * size_of(a);
+    const bool is_sum = !(size_of(rest) > allowed_rest);
+    const bool is_certain =
+        is_careful_ ? violation > size_of(rest) * largest_of(x_) : is_sum && violation > slack;
+    if (!is_certain) return Entry::in_doubt;
+    solution.conflict.push_back(p);
+    for (int i = 0; i < Operators::slot_count; ++i) {
+      if (image_.share(i) < -Scalar(1e-9)) solution.conflict.push_back(slots_[index(i)]);
+    }
+    return Entry::infeasible;
   }
 
-  Matrix6<Scalar> inverse_;    // H⁻¹
-  Matrix6<Scalar> projector_;  // P
-  int count_ = 0;
-  std::array<int, 6> active_;
-  std::array<Scalar, 6> multiplier_;
-  std::array<Vector6<Scalar>, 6> dual_;  // rows of N*
+  /// A step along P·a, and what it does to the multipliers.
+  void move(const Scalar& step) noexcept {
+    for (int j = 0; j < 6; ++j) x_[index(j)] += detail::product(step, image_.step(j));
+    move_multipliers(step);
+  }
+  void move_multipliers(const Scalar& step) noexcept {
+    for (int i = 0; i < Operators::slot_count; ++i)
+      multipliers_[index(i)] -= detail::product(step, image_.share(i));
+  }
+  void clamp_multipliers() noexcept {
+    for (Scalar& multiplier : multipliers_) multiplier = multiplier > Scalar(0) ? multiplier : Scalar(0);
+  }
+
+  /// Fills the image with that of H·dual and returns dual·H·dual.
+  Scalar curve(const Six& dual) noexcept {
+    const Six curved = inverse_.hessian_times(dual);
+    operators_.apply(curved, image_);
+    return detail::dot(dual, curved);
+  }
+
+  void activate(int row, const Six& a, const Scalar& multiplier, const Scalar& slope) noexcept {
+    const int slot = operators_.free_slot();
+    slots_[index(slot)] = row;
+    multipliers_[index(slot)] = multiplier;
+    operators_.add(slot, a, image_, slope);
+    if (is_careful_) operators_.rebuild(inverse_);
+  }
+
+  void release(int slot, const Six& dual, const Scalar& curvature) noexcept {
+    multipliers_[index(slot)] = Scalar(0);
+    operators_.drop(slot, inverse_, dual, image_, curvature);
+    if (is_careful_) operators_.rebuild(inverse_);
+  }
+
+  detail::InverseHessian<Scalar> inverse_;
+  Operators operators_;
+  detail::RowScan<Scalar, lanes> scan_;
+  typename Operators::Image image_{};  // of the vector last looked at
+  const Scalar* bounds_ = nullptr;     // of the rows, and the violation of them that is accepted
+  Scalar accepted_ = Scalar(0);
+  alignas(64) std::array<Scalar, std::size_t(Problem::row_capacity)> relaxed_bounds_{};
+  Six gradient_{};
+  Six x_{};
+  Six multipliers_{};  // a number a slot; 0 where it is free
+  std::array<int, 6> slots_{};
+  Scalar dependent_angle_ = Scalar(0);  // of a row with the span of others, in the metric of H⁻¹ [rad]
+  bool is_careful_ = false;
 };
 
 static_assert(QpSolver<DualActiveSet<double>>);

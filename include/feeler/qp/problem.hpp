@@ -4,6 +4,7 @@
 #include <array>
 
 #include "feeler/core/scalar.hpp"
+#include "feeler/qp/row_list.hpp"
 
 namespace feeler {
 
@@ -18,8 +19,8 @@ struct QpProblem {
   Matrix6<Scalar> hessian = Matrix6<Scalar>::Identity();
   Vector6<Scalar> gradient = Vector6<Scalar>::Zero();
   int row_count = 0;
-  std::array<Vector6<Scalar>, row_capacity> rows;
-  std::array<Scalar, row_capacity> bounds;
+  RowList<Scalar, row_capacity> rows;
+  alignas(64) std::array<Scalar, row_capacity> bounds{};
 
   void clear_rows() noexcept { row_count = 0; }
   /// Appends a row; false when there is no room.

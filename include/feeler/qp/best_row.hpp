@@ -1,0 +1,92 @@
+// The best of many rows, looked at side by side.
+#pragma once
+
+#include <array>
+#include <bit>
+#include <cstddef>
+#include <cstdint>
+#include <type_traits>
+
+#include "feeler/core/scalar.hpp"
+#include "feeler/qp/lanes.hpp"
+
+namespace feeler::detail {
+
+/// Meets the rows in order, `lanes` at a time, and keeps the one with the largest violation²/weight among
+/// those above a threshold.
+template <RealScalar Scalar, int lanes>
+class BestRow {
+ public:
+  using Group = Lanes<Scalar, lanes>;
+
+  void meet(const Group& violation, const Group& weight, const Group& threshold) noexcept {
+    const Group score = product(violation, violation) / weight;
+    if (violation > threshold) {
+      has_any_ = true;
+      if (score > score_) row_ = current_, score_ = score;
+    }
+    ++current_;
+  }
+  /// −1 if there is none, or if no score is a number.
+  int row() const noexcept { return row_; }
+  bool has_any() const noexcept { return has_any_; }
+
+ private:
+  Scalar score_ = Scalar(-1);
+  int row_ = -1, current_ = 0;
+  bool has_any_ = false;
+};
+
+/// The number of a row takes the last nine bits of its score. So one maximum finds both, whatever the order
+/// in which rows are met; scores that agree in all other bits count as equal, and the last such row wins.
+template <RealScalar Scalar, int lanes>
+requires has_lanes<Scalar>
+class BestRow<Scalar, lanes> {
+ public:
+  using Group = Lanes<Scalar, lanes>;
+
+  BestRow() noexcept {
+    std::array<Bits, std::size_t(lanes)> numbers;
+    for (std::size_t i = 0; i < numbers.size(); ++i) numbers[i] = Bits(i + 1);
+    number_ = std::bit_cast<BitGroup>(numbers);
+  }
+
+  void meet(const Group& violation, const Group& weight, const Group& threshold) noexcept {
+    const Group score = product(violation, violation) / weight;
+    const BitGroup is_above = mask(violation > threshold);
+    const BitGroup numbered = ((std::bit_cast<BitGroup>(score) & ~number_bits) | number_) & is_above;
+    best_ = greater(std::bit_cast<Group>(numbered), best_);
+    any_ |= is_above;
+    number_ += Bits(lanes);
+  }
+  int row() const noexcept {
+    const auto scores = std::bit_cast<std::array<Scalar, std::size_t(lanes)>>(best_);
+    Scalar best = scores[0];
+    for (const Scalar& score : scores) best = greater(score, best);
+    return static_cast<int>(std::bit_cast<Bits>(best) & number_bits) - 1;
+  }
+  bool has_any() const noexcept {
+    Bits any = 0;
+    for (const Bits bits : std::bit_cast<std::array<Bits, std::size_t(lanes)>>(any_)) any |= bits;
+    return any != 0;
+  }
+
+ private:
+  using Bits = std::conditional_t<sizeof(Scalar) == 8, std::int64_t, std::int32_t>;
+  using BitGroup = Lanes<Bits, lanes>;
+  static constexpr Bits number_bits = 0x1ff;
+
+  template <class Comparison>
+  static BitGroup mask(const Comparison& comparison) noexcept {
+    if constexpr (lanes == 1) {
+      return -Bits(comparison);
+    } else {
+      return comparison;
+    }
+  }
+
+  Group best_{};
+  BitGroup any_{}, number_;
+};
+
+}  // namespace feeler::detail

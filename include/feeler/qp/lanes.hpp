@@ -1,0 +1,138 @@
+// Groups of numbers that are computed side by side, and arithmetic whose bits do not depend on how many they
+// are.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstring>
+#include <memory>
+#include <type_traits>
+
+namespace feeler::detail {
+
+/// Bytes of the vector registers that the compiler may use; 0 where it may use none.
+constexpr int vector_bytes =
+#if !defined(__GNUC__)  // and those that speak its dialect
+    0;
+#elif defined(__AVX512F__)
+    64;
+#elif defined(__AVX__)
+    32;
+#elif defined(__SSE2__) || defined(__aarch64__)
+    16;
+#else
+    0;
+#endif
+
+template <class Scalar>
+constexpr bool has_lanes = std::is_same_v<Scalar, float> || std::is_same_v<Scalar, double>;
+
+/// How many numbers a vector kernel computes side by side: 2, 4 or 8, or 1 for plain loops.
+template <class Scalar>
+constexpr int lanes_of = has_lanes<Scalar> ? std::clamp(vector_bytes / int(sizeof(Scalar)), 1, 8) : 1;
+
+template <class Scalar, int lanes>
+struct LaneGroup {
+#if defined(__GNUC__)
+  static_assert(lanes == 2 || lanes == 4 || lanes == 8);
+  using type [[gnu::vector_size(sizeof(Scalar) * std::size_t(lanes))]] = Scalar;
+#endif
+};
+template <class Scalar>
+struct LaneGroup<Scalar, 1> {
+  using type = Scalar;
+};
+/// A vector of `lanes` scalars, or the scalar itself.
+template <class Scalar, int lanes>
+using Lanes = typename LaneGroup<Scalar, lanes>::type;
+
+/// From an address that is a multiple of the group's size.
+template <class Group, class Scalar>
+inline Group load(const Scalar* from) noexcept {
+  if constexpr (std::is_same_v<Group, Scalar>) {
+    return *from;
+  } else {
+    Group group;
+    std::memcpy(&group, std::assume_aligned<sizeof(Group)>(from), sizeof(group));
+    return group;
+  }
+}
+template <class Group, class Scalar>
+inline void store(Scalar* to, const Group& group) noexcept {
+  if constexpr (std::is_same_v<Group, Scalar>) {
+    *to = group;
+  } else {
+    std::memcpy(std::assume_aligned<sizeof(Group)>(to), &group, sizeof(group));
+  }
+}
+/// The same number in every lane.
+template <class Group, class Scalar>
+inline Group spread(const Scalar& value) noexcept {
+  if constexpr (std::is_same_v<Group, Scalar>) {
+    return value;
+  } else {
+    return value - Group{};
+  }
+}
+
+template <class Group>
+inline Group greater(const Group& a, const Group& b) noexcept {
+  return a > b ? a : b;
+}
+
+/// a·b, rounded before anything is added to it.
+///
+/// Compilers like to fuse a product and a sum where the processor can, so that the bits of a result change
+/// with their flags.
+template <class Group>
+inline Group product(const Group& a, const Group& b) noexcept {
+#if defined(__clang__)
+#pragma clang fp contract(off)
+  return a * b;
+#elif defined(__GNUC__) && __GNUC__ >= 12
+  if constexpr (std::is_class_v<Group>) {
+    return a * b;
+  } else {
+    return __builtin_assoc_barrier(a * b);
+  }
+#else
+  return a * b;
+#endif
+}
+
+/// Σ aⱼ·bⱼ over j < 6, in an order that is the same wherever it is computed.
+template <class Group, class A, class B>
+inline Group dot_of_six(const A& a, const B& b) noexcept {
+  const Group front = product<Group>(a[0], b[0]) + product<Group>(a[1], b[1]);
+  const Group middle = product<Group>(a[2], b[2]) + product<Group>(a[3], b[3]);
+  const Group back = product<Group>(a[4], b[4]) + product<Group>(a[5], b[5]);
+  return (front + middle) + back;
+}
+
+/// Six numbers, and a matrix by columns.
+template <class Scalar>
+using Six = std::array<Scalar, 6>;
+template <class Scalar>
+using SixBySix = std::array<Six<Scalar>, 6>;
+
+template <class Scalar>
+inline Scalar dot(const Six<Scalar>& a, const Six<Scalar>& b) noexcept {
+  return dot_of_six<Scalar>(a, b);
+}
+/// D·v of a diagonal matrix.
+template <class Scalar>
+inline Six<Scalar> multiply(const Six<Scalar>& diagonal, const Six<Scalar>& v) noexcept {
+  Six<Scalar> image;
+  for (std::size_t j = 0; j < 6; ++j) image[j] = product(diagonal[j], v[j]);
+  return image;
+}
+/// M·v of a symmetric matrix.
+template <class Scalar>
+inline Six<Scalar> multiply(const SixBySix<Scalar>& m, const Six<Scalar>& v) noexcept {
+  Six<Scalar> image;
+  for (std::size_t j = 0; j < 6; ++j) image[j] = dot(m[j], v);
+  return image;
+}
+
+}  // namespace feeler::detail
