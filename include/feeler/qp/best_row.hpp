@@ -4,8 +4,6 @@
 #include <array>
 #include <bit>
 #include <cstddef>
-#include <cstdint>
-#include <type_traits>
 
 #include "feeler/core/scalar.hpp"
 #include "feeler/qp/lanes.hpp"
@@ -60,10 +58,11 @@ class BestRow<Scalar, lanes> {
     number_ += Bits(lanes);
   }
   int row() const noexcept {
-    const auto scores = std::bit_cast<std::array<Scalar, std::size_t(lanes)>>(best_);
-    Scalar best = scores[0];
-    for (const Scalar& score : scores) best = greater(score, best);
-    return static_cast<int>(std::bit_cast<Bits>(best) & number_bits) - 1;
+    auto scores = std::bit_cast<std::array<Scalar, std::size_t(lanes)>>(best_);
+    for (std::size_t half = scores.size() / 2; half > 0; half /= 2) {
+      for (std::size_t i = 0; i < half; ++i) scores[i] = greater(scores[i], scores[i + half]);
+    }
+    return static_cast<int>(std::bit_cast<Bits>(scores[0]) & number_bits) - 1;
   }
   bool has_any() const noexcept {
     Bits any = 0;
@@ -72,7 +71,7 @@ class BestRow<Scalar, lanes> {
   }
 
  private:
-  using Bits = std::conditional_t<sizeof(Scalar) == 8, std::int64_t, std::int32_t>;
+  using Bits = LaneBits<Scalar>;
   using BitGroup = Lanes<Bits, lanes>;
   static constexpr Bits number_bits = 0x1ff;
 

@@ -166,7 +166,10 @@ class DualActiveSet {
     for (const Scalar& entry : v) largest = std::max(largest, magnitude(entry));
     return largest;
   }
-  static Scalar magnitude(const Scalar& value) noexcept { return value < Scalar(0) ? Scalar(-value) : value; }
+  static Scalar magnitude(const Scalar& value) noexcept {
+    using std::abs;
+    return abs(value);
+  }
   static Scalar size_of(const Six& a) noexcept {
     Scalar sum(0);
     for (const Scalar& entry : a) sum += magnitude(entry);
@@ -181,9 +184,9 @@ class DualActiveSet {
 
   /// Whether no step along P·a meets the row that lacks `violation`: where its angle with the span of the
   /// active rows is too small or, with care, where the step leads far off.
-  bool is_dependent(const Six& a, Scalar violation, Scalar slope) const noexcept {
+  bool is_dependent(const Six& a, const Scalar& whole, const Scalar& violation,
+                    const Scalar& slope) const noexcept {
     if (operators_.used() == Operators::slot_count) return true;
-    const Scalar whole = detail::dot(a, inverse_.inverse_times(a));
     if (!(slope > dependent_angle_ * dependent_angle_ * whole)) return true;
     const Scalar clear = Scalar(1e-12), far = Scalar(1e6);
     if (!is_careful_ || slope > clear * whole) return false;
@@ -285,7 +288,7 @@ class DualActiveSet {
         slope = detail::dot(a, image_.step());
       }
       const Scalar violation = bound - detail::dot(a, x_);
-      const bool has_no_step = is_dependent(a, violation, slope);
+      const bool has_no_step = is_dependent(a, whole, violation, slope);
 
       const Scalar infinity = std::numeric_limits<Scalar>::infinity();
       Scalar dual_step = infinity;
@@ -306,8 +309,9 @@ class DualActiveSet {
       multiplier += step;
       if (is_full) {
         clamp_multipliers();
-        scan_.set_active(row);
         p = scan_.add(problem, image_.step(), step, slope, accepted_);
+        scan_.set_active(row);
+        if (p == row) p = scan_.select(problem, accepted_);  // rounding says that it is still violated
         activate(row, a, multiplier, slope);
         if (is_careful_) refine();
         return Entry::done;

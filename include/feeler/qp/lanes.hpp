@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <cstdint>
 #include <cstring>
 #include <memory>
 #include <type_traits>
@@ -46,6 +47,10 @@ struct LaneGroup<Scalar, 1> {
 /// A vector of `lanes` scalars, or the scalar itself.
 template <class Scalar, int lanes>
 using Lanes = typename LaneGroup<Scalar, lanes>::type;
+
+/// An integer as wide as the scalar: what a comparison of vectors sets in each lane.
+template <class Scalar>
+using LaneBits = std::conditional_t<sizeof(Scalar) == 8, std::int64_t, std::int32_t>;
 
 /// From an address that is a multiple of the group's size.
 template <class Group, class Scalar>
@@ -94,6 +99,13 @@ inline Group product(const Group& a, const Group& b) noexcept {
   if constexpr (std::is_class_v<Group>) {
     return a * b;
   } else {
+#if defined(__FMA__)
+    if constexpr (has_lanes<Group>) {  // the barrier below does not outlive the vectorising of plain code
+      Group rounded = a * b;
+      __asm__("" : "+x"(rounded));
+      return rounded;
+    }
+#endif
     return __builtin_assoc_barrier(a * b);
   }
 #else

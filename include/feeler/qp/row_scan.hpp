@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <bit>
 #include <cstddef>
 #include <limits>
 
@@ -39,12 +40,10 @@ class RowScan {
   /// Computes weights where some rows are active.
   void weigh(const Problem& problem, const InverseHessian<Scalar>& inverse,
              const SixBySix<Scalar>& projector) noexcept {
-    const FullForm whole(inverse.matrix()), free(projector);
-    const Group share = spread<Group>(Scalar(least_share));
-    for (int k = 0; k < problem.row_count; k += lanes) {
-      const SixGroups a = load_rows(problem, k);
-      store(&weight_[index(k)], free(a));
-      store(&least_weight_[index(k)], Group(product(share, whole(a)) + spread<Group>(smallest())));
+    if (inverse.is_diagonal()) {
+      weigh(problem, DiagonalForm(inverse.matrix()), FullForm(projector));
+    } else {
+      weigh(problem, FullForm(inverse.matrix()), FullForm(projector));
     }
   }
 
@@ -196,6 +195,16 @@ class RowScan {
     return row_of(best, problem, tolerance);
   }
 
+  template <class Form>
+  void weigh(const Problem& problem, const Form& whole, const FullForm& free) noexcept {
+    const Group share = spread<Group>(Scalar(least_share)), least = spread<Group>(smallest());
+    for (int k = 0; k < problem.row_count; k += lanes) {
+      const SixGroups a = load_rows(problem, k);
+      store(&weight_[index(k)], free(a));
+      store(&least_weight_[index(k)], Group(product(share, whole(a)) + least));
+    }
+  }
+
   template <class Violation>
   bool measure(const Problem& problem, const Scalar* bounds, Scalar tolerance,
                const Violation& violation_of) noexcept {
@@ -208,9 +217,10 @@ class RowScan {
     if constexpr (lanes == 1) {
       return is_above;
     } else {
-      bool is_any = false;
-      for (int i = 0; i < lanes; ++i) is_any = is_any || is_above[i] != 0;
-      return is_any;
+      LaneBits<Scalar> any = 0;
+      using Bits = std::array<LaneBits<Scalar>, std::size_t(lanes)>;
+      for (const LaneBits<Scalar> bits : std::bit_cast<Bits>(is_above)) any |= bits;
+      return any != 0;
     }
   }
 
