@@ -29,8 +29,8 @@ namespace feeler {
 /// factor.
 ///
 /// Rows are met to `tolerance` [m]. Rows that make an angle below about 1e-8 rad with the span of the active
-/// ones count as dependent. The same input gives the same bits, on every processor and with every number of
-/// lanes. Cost: two products with every row, and one more for each row added; noexcept, no allocation.
+/// ones count as dependent. The same input gives the same bits, with every number of lanes and,
+/// on x86, with all flags of the compiler. Cost: two products with every row, and one more for each row added; noexcept, no allocation.
 /// @tparam lanes  rows computed side by side; by default what the compiler may use
 template <RealScalar ScalarType, int lanes = detail::lanes_of<ScalarType>>
 class DualActiveSet {
