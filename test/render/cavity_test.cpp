@@ -139,7 +139,8 @@ BOOST_AUTO_TEST_CASE(the_wrench_is_the_stiffness_times_the_pose_difference_and_t
       const WideTwist e = twist_between(haptic, tick.graphic_pose);
       worst_force = std::max(worst_force, (tick.wrench.force - (stiffness.translational.x() * e.linear).cast<double>()).norm());
       worst_torque = std::max(worst_torque, (tick.wrench.torque - (stiffness.rotational.x() * e.angular).cast<double>()).norm());
-      if (i % 10 != 0 || tick.wrench.force.norm() + tick.wrench.torque.norm() / half < 1e-6) continue;
+      // Where rounding decides which walls hold, a tick may end unconverged, a hair from where its multipliers balance.
+      if (i % 10 != 0 || !tick.converged() || tick.wrench.force.norm() + tick.wrench.torque.norm() / half < 1e-6) continue;
       ++contact_ticks;
       Vector3<double> force = Vector3<double>::Zero(), torque = Vector3<double>::Zero();
       for (const auto& contact : tick.contacts) {

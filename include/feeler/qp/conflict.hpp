@@ -41,7 +41,7 @@ bool find_conflict(const QpProblem<Scalar>& problem, const QpMultipliers<Scalar>
   GramSchmidt<Scalar> basis;
   for (int p = 0; p < problem.row_count; ++p) {
     if (!(multipliers[at(p)] > Scalar(1e-6) * largest) || !is_finite_number(multipliers[at(p)])) continue;
-    const auto& a = problem.rows[at(p)];
+    const Vector6<Scalar> a = problem.rows[at(p)];
     const auto e = basis.expand(a, a);
     if (count < 6 && e.free_squared > angle * angle * e.squared) {
       basis.add(e);
@@ -87,7 +87,7 @@ bool find_conflict(const QpProblem<Scalar>& problem, const QpMultipliers<Scalar>
     basis.clear();
     int kept = 0;
     for (int i = 0; i < count; ++i) {
-      const auto& row = problem.rows[at(carrying[at(i)].row)];
+      const Vector6<Scalar> row = problem.rows[at(carrying[at(i)].row)];
       const auto expansion = basis.expand(row, row);
       if (!(expansion.free_squared > angle * angle * expansion.squared)) continue;
       carrying[at(kept++)] = carrying[at(i)];

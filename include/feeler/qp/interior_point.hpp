@@ -126,7 +126,7 @@ class InteriorPoint {
     Matrix6<Scalar> normal = problem.hessian;
     Scalar gap(0);
     for (int k = 0; k < row_count_; ++k) {
-      const auto& a = problem.rows[at(k)];
+      const Vector6<Scalar> a = problem.rows[at(k)];
       const Scalar stiffness = multipliers_[at(k)] / softened_slack(k);
       for (int j = 0; j < 6; ++j) {
         const Scalar scaled = stiffness * a[j];

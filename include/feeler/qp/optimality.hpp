@@ -94,7 +94,7 @@ QpStatus conclude(const QpProblem<Scalar>& problem, const Ldlt6<Scalar>& hessian
   bool is_optimal = true;
   ConicBasis<Scalar> carrying;
   for (int k = 0; k < problem.row_count; ++k) {
-    const auto& row = problem.rows[std::size_t(k)];
+    const Vector6<Scalar> row = problem.rows[std::size_t(k)];
     const Scalar slack = row.dot(step) - problem.bounds[std::size_t(k)];
     if (!(slack >= -tolerance - rounding_of_row(row, step))) is_optimal = false;
     const Scalar& multiplier = multipliers[std::size_t(k)];
@@ -103,7 +103,7 @@ QpStatus conclude(const QpProblem<Scalar>& problem, const Ldlt6<Scalar>& hessian
   }
   for (int i = 0; i < carrying.size(); ++i) {
     const int k = carrying.index(i);
-    const auto& row = problem.rows[std::size_t(k)];
+    const Vector6<Scalar> row = problem.rows[std::size_t(k)];
     const Scalar slack = row.dot(step) - problem.bounds[std::size_t(k)];
     if (!(slack <= tolerance + rounding_of_row(row, step))) is_optimal = false;
     solution.active.push_back({k, carrying.weight(i)});

@@ -70,7 +70,7 @@ class TextbookActiveSet {
     int entering = -1;
     for (int k = 0; k < problem.row_count; ++k) {
       const Scalar violation = problem.bounds[at(k)] - problem.rows[at(k)].dot(x);
-      if (violation > worst && violation > tolerance + rounding_of_row(problem.rows[at(k)], x) &&
+      if (violation > worst && violation > tolerance + rounding_of_row(Vector6<Scalar>(problem.rows[at(k)]), x) &&
           !is_active(k)) {
         worst = violation;
         entering = k;
@@ -88,7 +88,7 @@ class TextbookActiveSet {
 
   bool active_rows_are_met(const Problem& problem, const Vector6<Scalar>& x) const noexcept {
     for (int i = 0; i < count_; ++i) {
-      const auto& a = problem.rows[at(active_[at(i)])];
+      const Vector6<Scalar> a = problem.rows[at(active_[at(i)])];
       if (problem.bounds[at(active_[at(i)])] - a.dot(x) > tolerance + rounding_of_row(a, x)) return false;
     }
     return true;
@@ -96,7 +96,7 @@ class TextbookActiveSet {
 
   /// Makes row p active, dropping rows whose multiplier would turn negative; says `optimal` when it is.
   QpStatus enter(const Problem& problem, int p, int limit, Solution& solution) noexcept {
-    const Vector6<Scalar>& a = problem.rows[at(p)];
+    const Vector6<Scalar> a = problem.rows[at(p)];
     const Vector6<Scalar> image = hessian_.solve(a);
     while (++solution.iterations <= limit) {
       factor(problem);
@@ -114,6 +114,7 @@ class TextbookActiveSet {
         }
       }
       if (is_dependent && leaving < 0) {
+        if (!is_certain_conflict(problem, p, e.coefficients)) return QpStatus::iteration_limit;
         solution.conflict.push_back(p);
         for (int i = 0; i < count_; ++i) {
           if (e.coefficients[at(i)] < -negligible()) solution.conflict.push_back(active_[at(i)]);
@@ -139,6 +140,19 @@ class TextbookActiveSet {
     return QpStatus::iteration_limit;
   }
 
+  /// Whether row p less its shares of the active ones asks for more than rounding and tolerances can explain.
+  template <class Shares>
+  bool is_certain_conflict(const Problem& problem, int p, const Shares& shares) const noexcept {
+    Scalar gain = problem.bounds[at(p)], weights(1), sizes = gain < Scalar(0) ? Scalar(-gain) : gain;
+    for (int i = 0; i < count_; ++i) {
+      const Scalar part = shares[at(i)] * problem.bounds[at(active_[at(i)])];
+      gain -= part;
+      weights += shares[at(i)] < Scalar(0) ? Scalar(-shares[at(i)]) : shares[at(i)];
+      sizes += part < Scalar(0) ? Scalar(-part) : part;
+    }
+    return gain > tolerance * weights + 16 * std::numeric_limits<Scalar>::epsilon() * sizes;
+  }
+
   /// Squared sine under which a row is dependent: of 1e-8 rad, or of what rounding leaves of a row projected
   /// twice.
   static Scalar dependence() noexcept {
@@ -155,7 +169,7 @@ class TextbookActiveSet {
   void factor(const Problem& problem) noexcept {
     basis_.clear();
     for (int i = 0; i < count_; ++i) {
-      const auto& a = problem.rows[at(active_[at(i)])];
+      const Vector6<Scalar> a = problem.rows[at(active_[at(i)])];
       basis_.add(basis_.expand(a, hessian_.solve(a)));
     }
   }
