@@ -50,15 +50,16 @@ inline scenes::Scene cavity_states(double clearance, double speed = 1.0) {
   return scene;
 }
 
-/// The five states of Fig. 13 with a line of 30 mm held at its lower end: free, on the top, over its edge, on the slope behind it, across
+/// The five states of Fig. 13 with a line of 30 mm held at its lower end: free, on the top, lightly over its edge (pressed, it would slip off), on the slope behind it, across
 /// the valley with both ends, free.
 inline scenes::Scene steps_states() {
   scenes::Scene scene = scenes::steps();
   scene.tool = Segment<double>(Vector::Zero(), Vector(0.0, 0.0, 0.030));
   scene.tip = Vector::Zero();
   // x and z of the held end, and the angle of the line seen along y.
-  const std::vector<KeyFrame> frames{{0.0, {0.004, 0.026, 157, 0}},   {0.3, {0.004, 0.026, 157, 0}},  {0.7, {0.005, 0.0185, 157, 0}},
-                                     {1.1, {0.0105, 0.0185, 157, 0}}, {1.7, {0.0150, 0.0172, 157, 0}}, {2.0, {0.0150, 0.0172, 157, 0}},
+  const std::vector<KeyFrame> frames{{0.0, {0.004, 0.026, 157, 0}},   {0.3, {0.004, 0.026, 157, 0}},  {0.6, {0.005, 0.0185, 157, 0}},
+                                     {0.8, {0.007, 0.0185, 157, 0}},  {1.1, {0.0095, 0.01999, 157, 0}}, {1.4, {0.0125, 0.01999, 157, 0}},
+                                     {1.7, {0.0150, 0.0172, 157, 0}}, {2.0, {0.0150, 0.0172, 157, 0}},
                                      {2.4, {0.0145, 0.0155, 100, 0}}, {2.8, {0.0150, 0.0150, 70, 0}}, {3.6, {0.0150, 0.0150, -14, 0}},
                                      {4.0, {0.0150, 0.0150, -14, 0}}, {4.5, {0.0160, 0.0260, 0, 0}},  {5.0, {0.0160, 0.0300, 0, 0}}};
   scene.motion = [frames](double t) {

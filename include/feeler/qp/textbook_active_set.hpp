@@ -150,7 +150,8 @@ class TextbookActiveSet {
       weights += shares[at(i)] < Scalar(0) ? Scalar(-shares[at(i)]) : shares[at(i)];
       sizes += part < Scalar(0) ? Scalar(-part) : part;
     }
-    return gain > tolerance * weights + 16 * std::numeric_limits<Scalar>::epsilon() * sizes;
+    const Scalar rounding = 16 * std::numeric_limits<Scalar>::epsilon();
+    return gain > tolerance * weights + rounding * sizes;
   }
 
   /// Squared sine under which a row is dependent: of 1e-8 rad, or of what rounding leaves of a row projected
