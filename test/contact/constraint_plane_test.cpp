@@ -7,7 +7,10 @@
 
 #include "support/contact_scenes.hpp"
 
+BOOST_AUTO_TEST_SUITE(constraint_plane)
+
 using namespace feeler_test;
+
 using feeler::SurfaceFeatures;
 using feeler::SurfaceSide;
 using Vector = Eigen::Vector3d;
@@ -67,3 +70,5 @@ BOOST_AUTO_TEST_CASE(points_on_the_free_side_of_a_valley_or_a_ridge_are_in_front
     }
   }
 }
+
+BOOST_AUTO_TEST_SUITE_END()

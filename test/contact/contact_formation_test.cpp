@@ -9,6 +9,8 @@
 #include "feeler/contact/contact_recogniser.hpp"
 #include "scenes/steps.hpp"
 
+BOOST_AUTO_TEST_SUITE(contact_formation)
+
 using feeler::ContactFormation;
 using feeler::ContactSwitch;
 using feeler::FeatureKind;
@@ -140,3 +142,5 @@ BOOST_AUTO_TEST_CASE(events_of_a_segment_that_slides_down_a_step_come_in_order) 
   const std::vector<std::string> expected{"1 in 1", "2 in 1", "1 2 in 2", "1 in 1", "1 1 in 2"};
   BOOST_TEST(events == expected, boost::test_tools::per_element());
 }
+
+BOOST_AUTO_TEST_SUITE_END()

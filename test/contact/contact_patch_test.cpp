@@ -11,6 +11,8 @@
 #include "feeler/spatial/pose.hpp"
 #include "support/random_tools.hpp"
 
+BOOST_AUTO_TEST_SUITE(contact_patch)
+
 using feeler::ContactPatch;
 using feeler::FeaturePair;
 using feeler::PatchRows;
@@ -80,8 +82,6 @@ Eigen::Quaterniond turn(double angle, const Vector& axis) {
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(contact_patch)
 
 BOOST_AUTO_TEST_CASE(a_box_flat_on_a_triangle_has_its_four_bottom_vertices_on_it) {
   const Mesh mesh = floor();

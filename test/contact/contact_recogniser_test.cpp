@@ -11,7 +11,10 @@
 #include "support/contact_scenes.hpp"
 #include "support/random_tools.hpp"
 
+BOOST_AUTO_TEST_SUITE(contact_recogniser)
+
 using namespace feeler_test;
+
 using feeler::ContactFormation;
 using feeler::ContactRecogniser;
 using feeler::PrincipalContactType;
@@ -352,3 +355,5 @@ BOOST_AUTO_TEST_CASE(recognising_allocates_nothing) {
   }
 }
 #endif
+
+BOOST_AUTO_TEST_SUITE_END()

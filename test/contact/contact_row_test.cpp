@@ -7,6 +7,8 @@
 
 #include "support/random_geometry.hpp"
 
+BOOST_AUTO_TEST_SUITE(contact_row)
+
 using feeler::ContactRow;
 using feeler::FeaturePair;
 using namespace feeler_test;
@@ -105,8 +107,6 @@ Real curvature_error(const Contact& contact) {
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(contact_row)
 
 BOOST_AUTO_TEST_CASE(gradient_and_curvature_of_a_vertex_on_a_face_are_derivatives_of_its_height) {
   constexpr unsigned seed = 1;

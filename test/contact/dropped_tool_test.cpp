@@ -14,7 +14,10 @@
 #include "support/contact_scenes.hpp"
 #include "support/random_tools.hpp"
 
+BOOST_AUTO_TEST_SUITE(dropped_tool)
+
 using namespace feeler_test;
+
 using Real = long double;
 using Wide = Eigen::Matrix<Real, 3, 1>;
 using Polygon = std::vector<Wide>;
@@ -343,3 +346,5 @@ BOOST_AUTO_TEST_CASE(dropped_tools_touch_as_clipping_says) {
   BOOST_TEST(told > tried / 2);
   for (int type = 1; type <= 12; ++type) BOOST_TEST(seen[type] > 20, "type " << type << " was seen " << seen[type] << " times");
 }
+
+BOOST_AUTO_TEST_SUITE_END()

@@ -10,7 +10,10 @@
 #include "support/contact_scenes.hpp"
 #include "support/random_tools.hpp"
 
+BOOST_AUTO_TEST_SUITE(feature_neighbours)
+
 using namespace feeler_test;
+
 using feeler::FeatureIncidence;
 using feeler::neighbours_of;
 
@@ -113,3 +116,5 @@ BOOST_AUTO_TEST_CASE(joins_are_the_smallest_features_that_hold_both) {
     }
   }
 }
+
+BOOST_AUTO_TEST_SUITE_END()

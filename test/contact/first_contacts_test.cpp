@@ -12,6 +12,8 @@
 #include "support/random_geometry.hpp"
 #include "support/wide_distance.hpp"
 
+BOOST_AUTO_TEST_SUITE(first_contacts)
+
 using feeler::Pose;
 using feeler::test::WideReal;
 using feeler::test::WideVector;
@@ -33,8 +35,6 @@ WideReal crossing_time(const WideVector& from, const WideVector& to, const Eigen
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(first_contacts)
 
 BOOST_AUTO_TEST_CASE(the_first_vertex_hit_is_that_of_brute_force) {
   constexpr unsigned seed = 1;

@@ -12,6 +12,8 @@
 #include "scenes/cavity.hpp"
 #include "support/random_geometry.hpp"
 
+BOOST_AUTO_TEST_SUITE(local_search)
+
 using feeler::CandidateConstraint;
 using feeler::FeaturePair;
 using feeler::LocalSearch;
@@ -50,8 +52,6 @@ std::size_t planes(const feeler::TriangleMesh<double>& mesh, const feeler::Candi
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(local_search)
 
 BOOST_AUTO_TEST_CASE(a_line_over_a_ridge_may_rest_on_either_slope_or_on_the_edge) {
   const auto mesh = roof(1);

@@ -2,10 +2,10 @@
 
 #include <boost/test/unit_test.hpp>
 
+BOOST_AUTO_TEST_SUITE(working_set)
+
 using Set = feeler::WorkingSet<double>;
 using Corners = Eigen::Matrix3d;
-
-BOOST_AUTO_TEST_SUITE(working_set)
 
 BOOST_AUTO_TEST_CASE(a_triangle_is_found_where_it_was_added_and_starts_with_nothing_known) {
   Set set;

@@ -6,6 +6,8 @@
 #include <type_traits>
 #include <vector>
 
+BOOST_AUTO_TEST_SUITE(fixed_vector)
+
 using feeler::FixedVector;
 
 namespace {
@@ -31,8 +33,6 @@ bool holds(const List& list, const std::vector<int>& expected) {
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(fixed_vector)
 
 BOOST_AUTO_TEST_CASE(a_new_list_is_empty_and_a_full_one_drops_what_is_pushed) {
   FixedVector<int, 3> list;

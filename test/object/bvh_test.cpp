@@ -8,6 +8,8 @@
 
 #include "feeler/object/triangle_mesh.hpp"
 
+BOOST_AUTO_TEST_SUITE(bvh)
+
 using feeler::BvhNode;
 using feeler::Points;
 using feeler::TriangleMesh;
@@ -138,8 +140,6 @@ TriangleMesh<double> soup(const std::vector<Eigen::Matrix3d>& corners) {
   return TriangleMesh<double>(vertices, triangles);
 }
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(bvh)
 
 BOOST_AUTO_TEST_CASE(boxes_contain_their_triangles_at_every_size_and_place) {
   for (const double offset : {0.0, 1.0, -1e6, 1e6})

@@ -10,7 +10,10 @@
 #include "scenes/steps.hpp"
 #include "support/contact_scenes.hpp"
 
+BOOST_AUTO_TEST_SUITE(surface_features)
+
 using namespace feeler_test;
+
 using feeler::Convexity;
 using feeler::SurfaceFeatures;
 using feeler::SurfaceSide;
@@ -158,3 +161,5 @@ BOOST_AUTO_TEST_CASE(edges_of_three_triangles_count_as_convex) {
     BOOST_TEST((surface.convexity({FeatureKind::edge, e}, SurfaceSide::back) == Convexity::convex));
   }
 }
+
+BOOST_AUTO_TEST_SUITE_END()

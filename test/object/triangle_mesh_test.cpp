@@ -15,6 +15,8 @@
 #include "feeler/object/normal_cone.hpp"
 #include "feeler/object/triangle_mesh.hpp"
 
+BOOST_AUTO_TEST_SUITE(triangle_mesh)
+
 using feeler::Convexity;
 using feeler::MeshTopology;
 using feeler::Points;
@@ -110,8 +112,6 @@ bool contains(const std::string& text, const char* part) {
   return text.find(part) != std::string::npos;
 }
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(triangle_mesh)
 
 BOOST_AUTO_TEST_CASE(cube_is_closed_and_all_its_edges_and_corners_stick_out) {
   const Mesh mesh(cube_points(), cube_triangles());

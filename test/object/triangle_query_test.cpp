@@ -7,9 +7,9 @@
 
 #include "support/random_geometry.hpp"
 
-using namespace feeler_test;
-
 BOOST_AUTO_TEST_SUITE(triangle_query)
+
+using namespace feeler_test;
 
 BOOST_AUTO_TEST_CASE(every_triangle_whose_box_meets_the_box_is_visited_once) {
   constexpr unsigned seed = 1;

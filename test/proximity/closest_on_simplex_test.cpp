@@ -8,6 +8,8 @@
 
 #include "support/random_tools.hpp"
 
+BOOST_AUTO_TEST_SUITE(closest_on_simplex)
+
 using feeler::detail::Simplex;
 using feeler::test::closest_on_wide_segment;
 using feeler::test::closest_on_wide_triangle;
@@ -52,8 +54,6 @@ Simplex<double> simplex_of(const std::vector<Vector>& points) {
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(closest_on_simplex)
 
 BOOST_AUTO_TEST_CASE(the_point_closest_to_the_origin_is_that_of_long_double_and_its_weights_make_it) {
   constexpr unsigned seed = 1;

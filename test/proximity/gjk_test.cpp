@@ -7,6 +7,8 @@
 #include "feeler/proximity/separation.hpp"
 #include "support/random_tools.hpp"
 
+BOOST_AUTO_TEST_SUITE(gjk)
+
 using feeler::WitnessFeatures;
 using feeler::ClosestPoints;
 using feeler::test::closest_features;
@@ -90,8 +92,6 @@ void check_worst(const Worst& worst) {
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(gjk)
 
 BOOST_AUTO_TEST_CASE(distance_of_a_segment_is_that_of_brute_force_from_any_start) {
   check_worst(check_random_pairs(1, 4000, random_segment));

@@ -8,13 +8,13 @@
 #include "feeler/proximity/plane_cache.hpp"
 #include "support/random_motions.hpp"
 
+BOOST_AUTO_TEST_SUITE(motion)
+
 using feeler::MotionFrame;
 using feeler::test::WideReal;
 using feeler::test::WideTool;
 using feeler::test::WideVector;
 using namespace feeler_test;
-
-BOOST_AUTO_TEST_SUITE(motion)
 
 BOOST_AUTO_TEST_CASE(poses_and_frames_are_those_of_constant_velocities_in_long_double) {
   constexpr unsigned seed = 1;

@@ -8,6 +8,8 @@
 
 #include "support/random_motions.hpp"
 
+BOOST_AUTO_TEST_SUITE(passage)
+
 using feeler::Clearance;
 using feeler::PassedTriangle;
 using feeler::test::CheckedTool;
@@ -161,8 +163,6 @@ const auto make_hull = [](std::mt19937& bits) { return random_hull(bits, 4 + bel
 constexpr std::array<Kind, 5> kinds{Kind::any, Kind::tick, Kind::rolling, Kind::spin, Kind::along_the_face};
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(passage)
 
 BOOST_AUTO_TEST_CASE(no_sample_of_a_box_on_a_certified_way_is_deeper_than_the_allowance) {
   for (const Kind kind : kinds) check_kind(10 + unsigned(kind), 700, kind, random_box);

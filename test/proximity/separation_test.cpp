@@ -6,6 +6,8 @@
 
 #include "support/random_tools.hpp"
 
+BOOST_AUTO_TEST_SUITE(separation)
+
 using feeler::test::WideReal;
 using feeler::test::WideTool;
 using feeler::test::WideVector;
@@ -47,8 +49,6 @@ void check_depth(unsigned seed, int count, const MakeTool& make_tool) {
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(separation)
 
 BOOST_AUTO_TEST_CASE(depth_of_a_box_is_that_of_the_separating_axis_theorem_in_long_double) {
   check_depth(1, 2000, random_box);

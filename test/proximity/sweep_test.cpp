@@ -11,6 +11,8 @@
 #include "support/allocation_count.hpp"
 #include "support/random_motions.hpp"
 
+BOOST_AUTO_TEST_SUITE(sweep)
+
 using feeler::Clearance;
 using feeler::KnownTriangle;
 using feeler::PlaneCache;
@@ -154,8 +156,6 @@ void check_soup(unsigned seed, const Soup& soup, const Vector& offset, double ro
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(sweep)
 
 BOOST_AUTO_TEST_CASE(a_certified_motion_through_a_soup_meets_no_triangle_in_any_sample) {
   std::mt19937 bits(11);

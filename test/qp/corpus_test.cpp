@@ -14,6 +14,8 @@
 #include "feeler/qp/dual_active_set.hpp"
 #include "support/qp_laws.hpp"
 
+BOOST_AUTO_TEST_SUITE(qp_corpus)
+
 namespace {
 
 class GzipFile {
@@ -56,8 +58,6 @@ struct Reference {
 const std::string folder = "../shared/qp/";
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(qp_corpus)
 
 BOOST_AUTO_TEST_CASE(every_problem_of_the_corpus_is_solved_right) {
   if (!std::ifstream(folder + "corpus.bin.gz") || !std::ifstream(folder + "reference.bin.gz")) {

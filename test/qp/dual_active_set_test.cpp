@@ -9,6 +9,8 @@
 
 #include "support/qp_laws.hpp"
 
+BOOST_AUTO_TEST_SUITE(dual_active_set)
+
 using feeler::DualActiveSet;
 using feeler::QpStatus;
 using Problem = feeler::QpProblem<double>;
@@ -32,8 +34,6 @@ feeler::Vector6<double> six(double x, double y, double z, double a = 0, double b
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(dual_active_set)
 
 BOOST_AUTO_TEST_CASE(every_answer_in_float_obeys_the_laws_of_a_qp_solver) {
   feeler_test::check_qp_laws<DualActiveSet<float>>(1);

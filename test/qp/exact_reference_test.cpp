@@ -14,6 +14,8 @@
 #include "qp/judge.hpp"
 #include "qp/problem_families.hpp"
 
+BOOST_AUTO_TEST_SUITE(qp_exact_reference)
+
 using feeler::qp_families::Judge;
 using feeler::qp_families::Verdict;
 
@@ -49,8 +51,6 @@ Verdict check(const feeler::qp_families::Family& family, const feeler::qp_famili
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(qp_exact_reference)
 
 BOOST_AUTO_TEST_CASE(fresh_problems_of_every_family_are_solved_right_by_every_solver) {
   const unsigned seed = seed_of_this_run();

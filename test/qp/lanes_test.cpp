@@ -11,6 +11,8 @@
 #include "feeler/qp/dual_active_set.hpp"
 #include "support/qp_laws.hpp"
 
+BOOST_AUTO_TEST_SUITE(lanes)
+
 namespace {
 
 /// Checks that solvers of several numbers of lanes give the bits of plain loops, on problems of every size.
@@ -46,8 +48,6 @@ void check_same_bits(unsigned seed) {
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(lanes)
 
 BOOST_AUTO_TEST_CASE(any_number_of_lanes_gives_the_same_bits_in_double) {
   check_same_bits<double, 2, 4, 8>(11);

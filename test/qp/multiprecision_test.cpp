@@ -12,6 +12,8 @@
 #include "support/qp_laws.hpp"
 #include "support/qp_promises.hpp"
 
+BOOST_AUTO_TEST_SUITE(qp_multiprecision)
+
 using feeler_test::Float50;
 using feeler_test::Rational;
 
@@ -21,8 +23,6 @@ using Solvers = std::tuple<feeler::DualActiveSet<Float50>, feeler::TextbookActiv
                            feeler::InteriorPoint<Float50>, feeler::ProjectedGaussSeidel<Float50>>;
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(qp_multiprecision)
 
 BOOST_AUTO_TEST_CASE_TEMPLATE(every_answer_in_50_digits_obeys_the_laws_of_a_qp_solver, Solver, Solvers) {
   feeler_test::check_qp_laws<Solver>(14, 20, feeler_test::promise_of<Solver>());

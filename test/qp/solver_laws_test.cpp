@@ -9,6 +9,8 @@
 #include "support/qp_laws.hpp"
 #include "support/qp_promises.hpp"
 
+BOOST_AUTO_TEST_SUITE(qp_solver_laws)
+
 namespace {
 
 template <class Scalar>
@@ -16,8 +18,6 @@ using Solvers = std::tuple<feeler::TextbookActiveSet<Scalar>, feeler::InteriorPo
                            feeler::ProjectedGaussSeidel<Scalar>>;
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(qp_solver_laws)
 
 BOOST_AUTO_TEST_CASE_TEMPLATE(every_answer_in_double_obeys_the_laws_of_a_qp_solver, Solver, Solvers<double>) {
   feeler_test::check_qp_laws<Solver>(11, 300, feeler_test::promise_of<Solver>());

@@ -14,10 +14,10 @@
 #include "support/allocation_count.hpp"
 #include "support/rendering.hpp"
 
+BOOST_AUTO_TEST_SUITE(allocation)
+
 using namespace feeler;
 using namespace feeler::test;
-
-BOOST_AUTO_TEST_SUITE(allocation)
 
 #if FEELER_TEST_COUNTS_ALLOCATIONS
 BOOST_AUTO_TEST_CASE(a_tick_allocates_nothing_and_the_count_would_show_it) {

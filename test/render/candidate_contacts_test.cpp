@@ -13,6 +13,8 @@
 #include "scenes/terrain.hpp"
 #include "support/rendering.hpp"
 
+BOOST_AUTO_TEST_SUITE(candidate_contacts)
+
 using namespace feeler;
 using namespace feeler::test;
 
@@ -64,8 +66,6 @@ Comparison compare(const scenes::Scene& scene, int ticks) {
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(candidate_contacts)
 
 BOOST_AUTO_TEST_CASE(in_a_convex_cavity_repeated_linearisation_gives_the_poses_of_the_default_method) {
   // Both meet the same minimum; the default keeps a margin of 1 µm, on either side.

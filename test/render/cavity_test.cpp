@@ -8,6 +8,8 @@
 #include "scenes/cavity.hpp"
 #include "support/rendering.hpp"
 
+BOOST_AUTO_TEST_SUITE(cavity)
+
 using namespace feeler;
 using namespace feeler::test;
 
@@ -56,8 +58,6 @@ double tilt_that_fits(double room) {
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(cavity)
 
 BOOST_AUTO_TEST_CASE(a_cube_tilts_in_its_cavity_as_far_as_the_clearance_lets_it) {
   for (const double clearance : {1e-3, 1e-4, 1e-5, 2e-6, 1e-6, 1e-7, 0.0}) {

@@ -11,6 +11,8 @@
 #include "scenes/spline.hpp"
 #include "support/rendering.hpp"
 
+BOOST_AUTO_TEST_SUITE(compound_tools)
+
 using namespace feeler;
 using namespace feeler::test;
 
@@ -57,8 +59,6 @@ struct PiecewiseWitness {
 };
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(compound_tools)
 
 BOOST_AUTO_TEST_CASE(one_piece_is_rendered_bit_by_bit_like_the_convex_tool) {
   const auto scene = scenes::cavity(1e-3);

@@ -9,6 +9,8 @@
 #include "scenes/motions.hpp"
 #include "support/rendering.hpp"
 
+BOOST_AUTO_TEST_SUITE(groove)
+
 using namespace feeler;
 using namespace feeler::test;
 
@@ -88,8 +90,6 @@ void check_tip_in_groove(double slope) {
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(groove)
 
 BOOST_AUTO_TEST_CASE(a_line_over_a_convex_edge_turns_until_its_torque_balances) {
   for (const double roof : {-0.5, -1.0, -1.5}) {

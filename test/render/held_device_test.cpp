@@ -14,6 +14,8 @@
 #include "scenes/terrain.hpp"
 #include "support/rendering.hpp"
 
+BOOST_AUTO_TEST_SUITE(held_device)
+
 using namespace feeler;
 using namespace feeler::test;
 
@@ -125,8 +127,6 @@ void check_rest(const scenes::Scene& scene, const std::string& name) {
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(held_device)
 
 BOOST_AUTO_TEST_CASE(a_held_device_makes_no_jitter_in_cavities_and_on_plates) {
   for (const double clearance : {1e-3, 1e-5, 0.0}) check_rest(scenes::cavity(clearance), "cavity " + std::to_string(clearance));

@@ -12,6 +12,8 @@
 #include "scenes/terrain.hpp"
 #include "support/rendering.hpp"
 
+BOOST_AUTO_TEST_SUITE(hostile)
+
 using namespace feeler;
 using namespace feeler::test;
 
@@ -86,8 +88,6 @@ void check_hostile(const scenes::Scene& scene, const std::string& name, int tick
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(hostile)
 
 BOOST_AUTO_TEST_CASE(a_hostile_device_never_makes_the_cube_penetrate_the_cavity) {
   check_hostile(scenes::cavity(1e-3), "cavity 1 mm", 4000, 1, touching_depth, 31);

@@ -10,6 +10,8 @@
 #include "scenes/plate.hpp"
 #include "support/rendering.hpp"
 
+BOOST_AUTO_TEST_SUITE(interface)
+
 using namespace feeler;
 using namespace feeler::test;
 
@@ -31,8 +33,6 @@ TriangleMesh<double> floor_mesh() {
 const Box<double> cube(Vector3<double>::Constant(0.01));
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(interface)
 
 BOOST_AUTO_TEST_CASE(the_renderer_deduces_its_type_from_object_tool_and_settings) {
   const TriangleMesh<double> object = floor_mesh();

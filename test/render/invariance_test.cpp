@@ -12,6 +12,8 @@
 #include "scenes/terrain.hpp"
 #include "support/rendering.hpp"
 
+BOOST_AUTO_TEST_SUITE(invariance)
+
 using namespace feeler;
 using namespace feeler::test;
 
@@ -118,8 +120,6 @@ const scenes::Scene steps_scene = scenes::steps();
 const scenes::Scene terrain_scene = scenes::terrain(22);
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(invariance)
 
 BOOST_AUTO_TEST_CASE(a_stiffness_scaled_by_a_power_of_two_scales_the_wrench_and_leaves_the_pose_alone) {
   for (const auto* scene : {&cavity_scene, &steps_scene, &terrain_scene}) {

@@ -8,6 +8,8 @@
 #include "scenes/terrain.hpp"
 #include "support/rendering.hpp"
 
+BOOST_AUTO_TEST_SUITE(pop_through)
+
 using namespace feeler;
 using namespace feeler::test;
 
@@ -97,8 +99,6 @@ void try_to_break_out(const Tool& tool, double gap, std::uint32_t seed) {
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(pop_through)
 
 BOOST_AUTO_TEST_CASE(a_line_never_crosses_a_thin_wall) {
   try_to_break_out(Segment<double>({0, 0, -0.015}, {0.004, 0.001, 0.015}), 0.040, 21);

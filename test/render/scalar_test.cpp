@@ -10,6 +10,8 @@
 #include "scenes/terrain.hpp"
 #include "support/rendering.hpp"
 
+BOOST_AUTO_TEST_SUITE(scalar)
+
 using namespace feeler;
 using namespace feeler::test;
 
@@ -80,8 +82,6 @@ void check_float(const scenes::Scene& scene, const std::string& name, int ticks,
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(scalar)
 
 BOOST_AUTO_TEST_CASE(a_float_renderer_gives_the_poses_of_a_double_one_to_a_micrometre) {
   check_float(scenes::cavity(1e-3), "cavity 1 mm", ticks_to_run(3000), 0);

@@ -10,6 +10,8 @@
 #include "scenes/terrain.hpp"
 #include "support/rendering.hpp"
 
+BOOST_AUTO_TEST_SUITE(slope)
+
 using namespace feeler;
 using namespace feeler::test;
 
@@ -130,8 +132,6 @@ const Tick<double>& hold(Renderer& renderer, const Pose<double>& haptic, int tic
 constexpr std::array<double, 8> slopes{0, 5, 10, 30, 45, 60, 80, 89};
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(slope)
 
 BOOST_AUTO_TEST_CASE(a_cube_dragged_over_a_slope_ends_at_the_metric_projection_and_feels_no_tangential_force) {
   double worst = 0, worst_tangential = 0;

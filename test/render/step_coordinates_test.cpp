@@ -8,6 +8,8 @@
 
 #include "support/random_geometry.hpp"
 
+BOOST_AUTO_TEST_SUITE(step_coordinates)
+
 using feeler::Increments;
 using feeler::Pose;
 using feeler::StepCoordinates;
@@ -61,8 +63,6 @@ void check(unsigned seed) {
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(step_coordinates)
 
 BOOST_AUTO_TEST_CASE(rotation_vectors_are_their_own_inverse_and_have_the_rows_of_a_twist) {
   check<Increments::rotation_vector>(1);

@@ -5,6 +5,8 @@
 #include "feeler/spatial/metric.hpp"
 #include "feeler/spatial/rotation.hpp"
 
+BOOST_AUTO_TEST_SUITE(rotation)
+
 using feeler::Vector3;
 using Vector = Vector3<double>;
 
@@ -14,8 +16,6 @@ Vector random_vector(std::mt19937& bits, double length) {
   return Vector(unit(), unit(), unit()) * length;
 }
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(rotation)
 
 BOOST_AUTO_TEST_CASE(exponential_agrees_with_the_rotation_about_an_axis) {
   std::mt19937 bits(1);

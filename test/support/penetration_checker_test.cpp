@@ -4,6 +4,8 @@
 
 #include <random>
 
+BOOST_AUTO_TEST_SUITE(penetration_checker)
+
 using namespace feeler::test;
 using Eigen::Quaterniond;
 using Eigen::Vector3d;
@@ -70,8 +72,6 @@ Quaterniond random_rotation(std::mt19937& bits) {
 const double depths[] = {1e-3, 1e-6, 1e-9, 1e-12};
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(penetration_checker)
 
 BOOST_AUTO_TEST_CASE(cube_in_a_plane_is_as_deep_as_it_is_pushed) {
   const CheckedTool cube = box(Vector3d::Constant(0.5));

@@ -9,6 +9,8 @@
 #include "feeler/tool/box.hpp"
 #include "support/tool_laws.hpp"
 
+BOOST_AUTO_TEST_SUITE(compound_tool)
+
 using feeler::Box;
 using feeler::CompoundTool;
 using feeler::ConvexPolytope;
@@ -30,8 +32,6 @@ std::string refusal_of(std::size_t pieces) {
   return "accepted";
 }
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(compound_tool)
 
 BOOST_AUTO_TEST_CASE(pieces_keep_their_order_and_their_place_in_the_tool_frame) {
   const std::vector<feeler::Points<double>> sets{cuboid({0, 0, 0}, {1, 1, 1}), cuboid({3, 0, 0}, {2, 1, 0.5})};

@@ -12,6 +12,8 @@
 #include "feeler/tool/convex_polytope.hpp"
 #include "support/tool_laws.hpp"
 
+BOOST_AUTO_TEST_SUITE(convex_polytope)
+
 using feeler::Points;
 using Vector = feeler::Vector3<double>;
 using Polytope = feeler::ConvexPolytope<double>;
@@ -92,8 +94,6 @@ bool contains(const std::string& text, const char* part) {
   return text.find(part) != std::string::npos;
 }
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(convex_polytope)
 
 BOOST_AUTO_TEST_CASE(cube_has_six_quads_at_any_size_place_and_turn) {
   std::mt19937 bits(1);

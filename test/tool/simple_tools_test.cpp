@@ -8,6 +8,8 @@
 #include "feeler/tool/segment.hpp"
 #include "support/tool_laws.hpp"
 
+BOOST_AUTO_TEST_SUITE(simple_tools)
+
 using feeler::Box;
 using feeler::Segment;
 using Vector = feeler::Vector3<double>;
@@ -26,8 +28,6 @@ bool contains(const std::string& text, const char* part) {
   return text.find(part) != std::string::npos;
 }
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(simple_tools)
 
 BOOST_AUTO_TEST_CASE(box_and_segment_obey_the_laws_in_every_scalar) {
   for (const Vector& h : {Vector(1, 2, 3), Vector(1e-6, 1, 1e6), Vector(0.01, 0.01, 0.01)}) {
