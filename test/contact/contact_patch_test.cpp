@@ -9,6 +9,7 @@
 
 #include "feeler/proximity/separation.hpp"
 #include "feeler/spatial/pose.hpp"
+#include "feeler/tool/tool_incidence.hpp"
 #include "support/random_tools.hpp"
 
 BOOST_AUTO_TEST_SUITE(contact_patch)
@@ -67,7 +68,8 @@ Found find(const Tool& tool, const Mesh& mesh, int triangle, const feeler::Pose<
   const Eigen::Matrix3d corners =
       (axes.transpose() * (mesh.corners(triangle).colwise() - pose.translation)).colwise() + reference;
   const auto closest = feeler::separation(tool, corners, {}, 1e-8);
-  ContactPatch<Tool, double> patch(tool, mesh, axes, reference, band, assumes_valleys);
+  const feeler::FeatureIncidence incidence = feeler::incidence_of(tool);
+  ContactPatch<Tool, double> patch(tool, incidence, mesh, axes, reference, band, assumes_valleys);
   Found found;
   found.has_rows = patch.find(triangle, corners, closest, keep_ghost, found.rows);
   return found;

@@ -3,10 +3,12 @@
 
 #include <algorithm>
 #include <array>
+#include <bitset>
 #include <cmath>
 #include <limits>
 
 #include "feeler/contact/contact_row.hpp"
+#include "feeler/core/feature_incidence.hpp"
 #include "feeler/core/fixed_vector.hpp"
 #include "feeler/core/scalar.hpp"
 #include "feeler/object/normal_cone.hpp"
@@ -31,7 +33,7 @@ using PatchRows = FixedVector<ContactRow<Scalar>, 12>;
 /// above the planes of both sides, and each will hold it: there the plane of the face takes the ghost's place, and the row says that it is
 /// assumed.
 ///
-/// All input in the tool frame. @cost O(vertices), and O(edges) where more than one vertex is in the band.
+/// All input in the tool frame. @cost O(vertices in the band), at most 16 of them, and the features at them
 template <ConvexTool Tool, class MeshScalar>
 class ContactPatch {
  public:
@@ -39,13 +41,15 @@ class ContactPatch {
   using Vector = Vector3<Scalar>;
   using Row = ContactRow<Scalar>;
 
+  /// @param incidence        `incidence_of(tool)`
   /// @param world_from_tool  axes of the tool; rows come out in world axes
   /// @param reference        reference point in the tool frame [m]
   /// @param band             height above the separating plane up to which features count [m]
   /// @param assumes_valleys  let the planes of valleys hold the tool before it is over them
-  ContactPatch(const Tool& tool, const TriangleMesh<MeshScalar>& mesh, const Matrix3<Scalar>& world_from_tool,
-               const Vector& reference, Scalar band, bool assumes_valleys) noexcept
+  ContactPatch(const Tool& tool, const FeatureIncidence& incidence, const TriangleMesh<MeshScalar>& mesh,
+               const Matrix3<Scalar>& world_from_tool, const Vector& reference, Scalar band, bool assumes_valleys) noexcept
       : tool_(tool),
+        incidence_(incidence),
         mesh_(mesh),
         world_from_tool_(world_from_tool),
         reference_(reference),
@@ -59,10 +63,11 @@ class ContactPatch {
     triangle_ = triangle;
     corners_ = corners;
     normal_ = closest.normal;
-    gather_near_features();
+    gather_near_vertices(closest);
+    measure_triangle();
     add_vertices_on_face(rows);
-    if (near_count_ > 1) add_edges(rows);
-    if (near_count_ > 2) add_corners_on_faces(rows);
+    if (near_.size() > 1) add_edges(rows);
+    if (near_.size() > 2) add_corners_on_faces(rows);
     const Scalar close_enough = closest.distance + std::abs(closest.distance) / 1000 + Scalar(1e-9);
     const bool is_met = std::any_of(rows.begin(), rows.end(), [&](const Row& row) { return row.gap <= close_enough; });
     // Overlapping shapes have no closest points: the deepest vertex may lie beside the triangle, where nothing holds it.
@@ -84,15 +89,26 @@ class ContactPatch {
 
   static std::size_t index(int i) noexcept { return std::size_t(i); }
 
-  void gather_near_features() noexcept {
-    near_count_ = 0;
-    const int lowest = tool_.support(Vector(-normal_));
+  /// The tool vertices in the band, from the lowest along edges: below any height a convex tool hangs together.
+  void gather_near_vertices(const ClosestPoints<Scalar>& closest) noexcept {
+    const int lowest = closest.features.size > 0 ? closest.features.tool_vertices[0] : tool_.support(Vector(-normal_));
     const Scalar limit = normal_.dot(tool_.vertex(lowest)) + band_;
-    for (int i = 0; i < tool_.vertex_count(); ++i) {
-      const bool is_near = i == lowest || normal_.dot(tool_.vertex(i)) <= limit;
-      is_near_[index(i)] = is_near && near_count_ < near_capacity;
-      if (is_near_[index(i)]) near_[index(near_count_++)] = i;
+    near_.clear();
+    is_near_.reset();
+    const auto reach = [this](int vertex) {
+      if (near_.push_back(vertex)) is_near_.set(index(vertex));
+    };
+    reach(lowest);
+    for (int i = 0; i < near_.size(); ++i) {
+      for (const int e : incidence_.vertex_edges(near_[i])) {
+        for (const int vertex : incidence_.edge_vertices(e)) {
+          if (!is_near_[index(vertex)] && normal_.dot(tool_.vertex(vertex)) <= limit) reach(vertex);
+        }
+      }
     }
+  }
+
+  void measure_triangle() noexcept {
     const Vector edge0 = corners_.col(1) - corners_.col(0);
     const Vector edge1 = corners_.col(2) - corners_.col(0);
     const Vector cross = edge0.cross(edge1);
@@ -109,8 +125,8 @@ class ContactPatch {
   void add_vertices_on_face(PatchRows<Scalar>& rows) noexcept {
     if (!has_face_ || !faces_tool_) return;
     const Vector normal = side_ * face_normal_;
-    for (int i = 0; i < near_count_; ++i) {
-      const Vector vertex = tool_.vertex(near_[index(i)]);
+    for (const int near : near_) {
+      const Vector vertex = tool_.vertex(near);
       const Scalar gap = normal.dot(vertex - corners_.col(0));
       if (std::abs(gap) > 2 * band_) continue;
       Scalar room = std::numeric_limits<Scalar>::infinity();
@@ -155,77 +171,95 @@ class ContactPatch {
   }
 
   void add_corners_on_faces(PatchRows<Scalar>& rows) noexcept {
-    for (int f = 0; f < tool_.face_count(); ++f) {
-      const auto face = tool_.face(f);
-      const Vector outward = face.normal;
-      if (-outward.dot(normal_) < least_cosine) continue;
-      const auto& loop = face.vertices;
-      if (!std::all_of(loop.begin(), loop.end(), [this](int v) { return is_near_[index(v)]; })) continue;
-      for (int k = 0; k < 3; ++k) {
-        const Vector corner = corners_.col(k);
-        const Scalar gap = outward.dot(corner - tool_.vertex(loop[0]));
-        if (std::abs(gap) > 2 * band_) continue;
-        Scalar room = std::numeric_limits<Scalar>::infinity();
-        for (std::size_t i = 0; i < loop.size(); ++i) {
-          room = std::min(room, inward(tool_.vertex(loop[i]), tool_.vertex(loop[(i + 1) % loop.size()]), corner, outward));
-        }
-        if (!(room >= Scalar(0)) || !is_clear_of_neighbours_at_corner(k, Vector(-outward))) continue;
-        rows.push_back(row_of(FeaturePair::face_vertex, Vector(-outward), corner, gap, room));
+    for (const int vertex : near_) {
+      for (const int f : incidence_.vertex_faces(vertex)) {
+        const auto all = incidence_.face_vertices(f);
+        if (all.front() != vertex) continue;  // each face once
+        if (std::all_of(all.begin(), all.end(), [this](int v) { return is_near_[index(v)]; })) add_corners_on_face(tool_.face(f), rows);
       }
     }
   }
+
+  void add_corners_on_face(const ToolFace<Scalar>& face, PatchRows<Scalar>& rows) noexcept {
+    const Vector outward = face.normal;
+    if (-outward.dot(normal_) < least_cosine) return;
+    const auto& loop = face.vertices;
+    for (int k = 0; k < 3; ++k) {
+      const Vector corner = corners_.col(k);
+      const Scalar gap = outward.dot(corner - tool_.vertex(loop[0]));
+      if (std::abs(gap) > 2 * band_) continue;
+      Scalar room = std::numeric_limits<Scalar>::infinity();
+      for (std::size_t i = 0; i < loop.size(); ++i) {
+        room = std::min(room, inward(tool_.vertex(loop[i]), tool_.vertex(loop[(i + 1) % loop.size()]), corner, outward));
+      }
+      if (!(room >= Scalar(0)) || !is_clear_of_neighbours_at_corner(k, Vector(-outward))) continue;
+      rows.push_back(row_of(FeaturePair::face_vertex, Vector(-outward), corner, gap, room));
+    }
+  }
+
+  /// An edge of the triangle in the tool frame.
+  struct ObjectEdge {
+    int number = 0;
+    Vector start, span, direction;  // direction: unit
+    Scalar length = Scalar(0);
+  };
 
   void add_edges(PatchRows<Scalar>& rows) noexcept {
-    std::array<bool, 3> is_edge;  // an edge inside a flat part of the surface touches nothing
-    for (int k = 0; k < 3; ++k) is_edge[index(k)] = mesh_.topology().edge_convexity(triangle_, k) != Convexity::flat;
-    for (int e = 0; e < tool_.edge_count(); ++e) {
-      const ToolEdge edge = tool_.edge(e);
-      if (!is_near_[index(edge.start)] || !is_near_[index(edge.end)]) continue;
-      for (int k = 0; k < 3; ++k) {
-        if (is_edge[index(k)]) add_edge_pair(tool_.vertex(edge.start), tool_.vertex(edge.end), k, rows);
+    FixedVector<ObjectEdge, 3> object_edges;
+    for (int k = 0; k < 3; ++k) {
+      // An edge inside a flat part of the surface touches nothing.
+      if (mesh_.topology().edge_convexity(triangle_, k) == Convexity::flat) continue;
+      const Vector start = corners_.col(k), span = corners_.col((k + 1) % 3) - start;
+      const Scalar length = span.norm();
+      if (length > Scalar(0)) object_edges.push_back({k, start, span, span / length, length});
+    }
+    if (object_edges.empty()) return;
+    for (const int vertex : near_) {
+      for (const int e : incidence_.vertex_edges(vertex)) {
+        const auto& ends = incidence_.edge_vertices(e);
+        if (ends[0] != vertex || !is_near_[index(ends[1])]) continue;  // each edge once
+        const Vector tool_start = tool_.vertex(vertex), tool = tool_.vertex(ends[1]) - tool_start;
+        for (const ObjectEdge& object : object_edges) add_edge_pair(tool_start, tool, object, rows);
       }
     }
   }
 
-  void add_edge_pair(const Vector& tool_start, const Vector& tool_end, int k, PatchRows<Scalar>& rows) noexcept {
-    const Vector start = corners_.col(k);
-    const Vector object = corners_.col((k + 1) % 3) - start;
-    const Vector tool = tool_end - tool_start;
-    const Scalar object_length = object.norm(), tool_length = tool.norm();
-    if (!(object_length > Scalar(0))) return;
-    const Vector u = object / object_length, v = tool / tool_length;
-    const Vector cross = v.cross(u);
-    const Scalar sine = cross.norm();
-    if (sine < Scalar(1e-3)) {
-      add_parallel_edges(tool_start, tool, start, object, k, rows);
+  void add_edge_pair(const Vector& tool_start, const Vector& tool, const ObjectEdge& object, PatchRows<Scalar>& rows) noexcept {
+    const Vector& u = object.direction;
+    const Vector cross = tool.cross(u);
+    const Scalar tool_squared = tool.squaredNorm(), cross_squared = cross.squaredNorm();
+    if (cross_squared < Scalar(1e-6) * tool_squared) {
+      add_parallel_edges(tool_start, tool, object, rows);
       return;
     }
-    Vector normal = cross / sine;
-    if (normal.dot(normal_) < Scalar(0)) normal = -normal;
-    if (normal.dot(normal_) < least_cosine) return;
+    const Scalar along_normal = cross.dot(normal_);
+    if (along_normal * along_normal < least_cosine * least_cosine * cross_squared) return;
     // The lines are closest where the difference of their points is along the normal.
-    const Vector between = tool_start - start;
-    const Scalar along_object = between.cross(v).dot(u.cross(v)) / (sine * sine);
-    const Scalar along_tool = between.cross(u).dot(u.cross(v)) / (sine * sine);
-    const Scalar room = std::min({along_object, object_length - along_object, along_tool, tool_length - along_tool});
-    if (!(room >= Scalar(0))) return;
+    const Vector between = tool_start - object.start;
+    const Vector across = u.cross(tool);
+    const Scalar along_object = between.cross(tool).dot(across) / cross_squared;
+    const Scalar part_of_tool = between.cross(u).dot(across) / cross_squared;
+    if (!(along_object >= Scalar(0) && along_object <= object.length && part_of_tool >= Scalar(0) && part_of_tool <= Scalar(1))) return;
+    const Vector normal = cross / (along_normal < Scalar(0) ? -std::sqrt(cross_squared) : std::sqrt(cross_squared));
     const Scalar gap = normal.dot(between);
-    if (std::abs(gap) > 2 * band_ || !is_clear_of_neighbour_across(k, normal)) return;
-    Row row = row_of(FeaturePair::edge_edge, normal, Vector(tool_start + along_tool * v), gap, room);
+    if (std::abs(gap) > 2 * band_ || !is_clear_of_neighbour_across(object.number, normal)) return;
+    const Scalar tool_length = std::sqrt(tool_squared);
+    const Scalar room = std::min({along_object, object.length - along_object, part_of_tool * tool_length, (1 - part_of_tool) * tool_length});
+    Row row = row_of(FeaturePair::edge_edge, normal, Vector(tool_start + part_of_tool * tool), gap, room);
     row.object_edge = world_from_tool_ * u;
-    row.tool_edge = world_from_tool_ * v;
+    row.tool_edge = world_from_tool_ * tool / tool_length;
     rows.push_back(row);
   }
 
   /// Edges in parallel touch along an interval; its ends hold the tool.
-  void add_parallel_edges(const Vector& tool_start, const Vector& tool, const Vector& start, const Vector& object, int k,
-                          PatchRows<Scalar>& rows) noexcept {
+  void add_parallel_edges(const Vector& tool_start, const Vector& tool, const ObjectEdge& edge, PatchRows<Scalar>& rows) noexcept {
+    const Vector &start = edge.start, &object = edge.span;
     const Scalar length_squared = tool.squaredNorm();
     const Scalar first = object.dot(tool) > Scalar(0) ? tool.dot(start - tool_start) : tool.dot(start + object - tool_start);
     const Scalar extent = std::abs(object.dot(tool));
     const Scalar from = std::max(Scalar(0), first / length_squared);
     const Scalar to = std::min(Scalar(1), (first + extent) / length_squared);
-    if (!(from < to) || !is_clear_of_neighbour_across(k, normal_)) return;
+    if (!(from < to) || !is_clear_of_neighbour_across(edge.number, normal_)) return;
     for (const Scalar t : {from, to}) {
       const Vector on_tool = tool_start + t * tool;
       const Scalar along = object.dot(on_tool - start) / object.squaredNorm();
@@ -282,6 +316,7 @@ class ContactPatch {
   }
 
   const Tool& tool_;
+  const FeatureIncidence& incidence_;
   const TriangleMesh<MeshScalar>& mesh_;
   Matrix3<Scalar> world_from_tool_;
   Vector reference_;
@@ -295,9 +330,8 @@ class ContactPatch {
   bool faces_tool_ = false;
   Vector face_normal_ = Vector::Zero();
   Scalar side_ = Scalar(1);
-  int near_count_ = 0;
-  std::array<int, near_capacity> near_;
-  std::array<bool, 256> is_near_;
+  FixedVector<int, near_capacity> near_;
+  std::bitset<256> is_near_;
 };
 
 }  // namespace feeler

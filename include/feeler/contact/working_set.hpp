@@ -16,10 +16,14 @@ struct WorkingPair {
   WitnessFeatures features;       ///< where the last query ended
   Vector3<Scalar> normal = Vector3<Scalar>::Zero();  ///< world normal that separates at the certified pose, or zero
   Scalar slack = Scalar(0);                          ///< separation there [m]
+  Scalar moved = Scalar(0);                          ///< length of motions since that was measured [m]
   int idle_ticks = 0;       ///< ticks since it held the tool or blocked a motion
   bool has_rows = false;    ///< rows of it took part in the last step
   bool is_tight = false;    ///< there was no room for the margin at its last step
   bool keeps_ghost = false; ///< it blocked although its row looked like a ghost: give it a row all the same
+
+  /// Whether the separation is certainly more than a distance [m].
+  bool is_beyond(Scalar distance) const noexcept { return slack - moved > distance; }
 };
 
 /// The working set: constraints enter when they block and leave when they have long been idle.
@@ -57,6 +61,11 @@ class WorkingSet {
     pair.triangle = triangle;
     pair.corners_world = corners_world;
     pairs_.push_back(pair);
+  }
+
+  /// The tool has moved, no point of it by more than a length.
+  void approach(Scalar length) noexcept {
+    for (Pair& pair : pairs_) pair.moved += length;
   }
 
   /// Counts a tick, and drops what has been idle for `longest` ticks or lies more than `reach` away [m]; what lies closer than `touch`

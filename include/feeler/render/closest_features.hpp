@@ -95,6 +95,9 @@ class ClosestFeaturesFollower {
     if (tick.work < work_budget(scene) / 3) patience_ = std::max(patience_ - 1, 0);
   }
 
+  /// What is farther away cannot stop the next step [m].
+  Scalar reach_of_step(const Scene& scene) const noexcept { return trust_ + scene.margin(); }
+
   void reset_limits(const Scene& scene) noexcept {
     trust_ = scene.trust_radius();
     flight_ = std::numeric_limits<Scalar>::infinity();
@@ -121,7 +124,10 @@ class ClosestFeaturesFollower {
       } else {
         const bool is_done = result.blockers.empty() && proposal.is_settled && !proposal.is_capped;
         pose_ = is_done && proposal.is_free ? target_ : moved(pose_, proposal.motion * result.time);
-        if (result.time > Scalar(0)) tick.path.push_back(scene.tool_pose(pose_));
+        if (result.time > Scalar(0)) {
+          tick.path.push_back(scene.tool_pose(pose_));
+          working_set_.approach(length * result.time);
+        }
         if (is_done) return true;
         if (result.blockers.empty()) {
           trust_ = std::min(scene.trust_radius(), 2 * trust_);
@@ -189,9 +195,14 @@ class ClosestFeaturesFollower {
     problem_.clear();
     const Matrix3<Scalar> axes = pose.rotation.toRotationMatrix();
     const Scalar band = scene.trust_radius() / 4;
+    const Scalar far = reach_of_step(scene);
     PatchRows<Scalar> rows;
     for (int i = 0; i < working_set_.size(); ++i) {
       Pair& pair = working_set_[i];
+      if (pair.is_beyond(far)) {
+        pair.has_rows = false;
+        continue;
+      }
       const Matrix3<Scalar> corners = scene.in_tool(pair.corners_world, pose, axes);
       const auto closest = closest_points(scene, corners, axes, pair, is_certified);
       ++tick.work;
@@ -199,8 +210,9 @@ class ClosestFeaturesFollower {
       if (is_certified) {
         pair.normal = axes * closest.normal;
         pair.slack = closest.distance;
+        pair.moved = Scalar(0);
       }
-      ContactPatch<Piece, MeshScalar> patch(scene.piece(pair.piece), scene.object(), axes, scene.reference(), band, assumes_valleys);
+      ContactPatch<Piece, MeshScalar> patch(scene.piece(pair.piece), scene.incidence(pair.piece), scene.object(), axes, scene.reference(), band, assumes_valleys);
       pair.has_rows = patch.find(pair.triangle, corners, closest, pair.keeps_ghost, rows);
       for (ContactRow<Scalar>& row : rows) {
         row.piece = pair.piece;
@@ -236,7 +248,7 @@ class ClosestFeaturesFollower {
 
   SweepResult<Scalar> certify(const Scene& scene, const Twist<Scalar>& motion, Tick<MeshScalar>& tick) noexcept {
     const int limit = tick.work + std::max(work_budget(scene) / 2, work_budget(scene) - tick.work);
-    return certificate_.certify(scene, pose_, motion, tick.work, limit, working_set_);
+    return certificate_.certify(scene, pose_, motion, tick.work, limit, working_set_, reach_of_step(scene));
   }
 
   /// Takes what blocked into the working set; false when all of it was there already with rows of its own.

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <limits>
 #include <span>
 
 #include "feeler/contact/working_set.hpp"
@@ -27,10 +28,10 @@ class MotionCertificate {
   /// @param from    pose of the reference point
   /// @param work    grows by the work done
   /// @param limit   value of `work` at which it gives up
-  /// @param pairs   what is known near the tool at `from`: looked at first, and exactly
+  /// @param pairs   what is known near the tool at `from`: looked at first, and exactly, but for those beyond `far` [m]
   template <int pair_capacity = 1>
   SweepResult<Scalar> certify(const Scene& scene, const Pose<Scalar>& from, const Twist<Scalar>& motion, int& work, int limit,
-                              const WorkingSet<Scalar, pair_capacity>& pairs = {}) noexcept {
+                              const WorkingSet<Scalar, pair_capacity>& pairs = {}, Scalar far = std::numeric_limits<Scalar>::infinity()) noexcept {
     SweepResult<Scalar> result;
     Scalar until = Scalar(1);
     for (int piece = 0; piece < scene.piece_count(); ++piece) {
@@ -40,7 +41,7 @@ class MotionCertificate {
       int known_count = 0;
       for (int i = 0; i < pairs.size(); ++i) {
         const auto& pair = pairs[i];
-        if (pair.piece != piece) continue;
+        if (pair.piece != piece || pair.is_beyond(far)) continue;
         known[std::size_t(known_count++)] = {
             pair.triangle, {pair.corners_world.colwise() - moving.origin(), pair.normal, pair.features, true}};
       }

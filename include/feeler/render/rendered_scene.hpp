@@ -11,6 +11,7 @@
 #include "feeler/proximity/passage.hpp"
 #include "feeler/render/settings.hpp"
 #include "feeler/tool/rigid_tool.hpp"
+#include "feeler/tool/tool_incidence.hpp"
 
 namespace feeler {
 
@@ -44,6 +45,7 @@ class RenderedScene {
         metric_((settings.metric ? *settings.metric : Metric<MeshScalar>::proportional_to(settings.stiffness))
                     .template cast<Scalar>()) {
     for (int i = 0; i < piece_count(); ++i) {
+      incidences_[index(i)] = incidence_of(piece(i));
       radii_[index(i)] = radius_about(piece(i), reference_);
       radius_ = std::max(radius_, radii_[index(i)]);
     }
@@ -59,6 +61,7 @@ class RenderedScene {
   const Tool& tool() const noexcept { return tool_; }
   int piece_count() const noexcept { return feeler::piece_count(tool_); }
   const Piece& piece(int i) const noexcept { return piece_of(tool_, i); }
+  const FeatureIncidence& incidence(int i) const noexcept { return incidences_[index(i)]; }
   const Settings<MeshScalar>& settings() const noexcept { return settings_; }
   /// In the tool frame [m].
   const Vector3<Scalar>& reference() const noexcept { return reference_; }
@@ -106,6 +109,7 @@ class RenderedScene {
   const TriangleMesh<MeshScalar>* object_;
   Tool tool_;
   Settings<MeshScalar> settings_;
+  std::array<FeatureIncidence, std::size_t(maximum_pieces<Tool>)> incidences_;
   Vector3<Scalar> reference_;
   std::array<Scalar, std::size_t(maximum_pieces<Tool>)> radii_;
   Scalar radius_ = Scalar(0);
