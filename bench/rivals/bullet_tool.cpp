@@ -90,16 +90,21 @@ class BulletTool final : public CoupledTool {
   void reset(const Pose<double>& pose) override {
     const auto& q = pose.rotation;
     const btTransform transform(btQuaternion(q.x(), q.y(), q.z(), q.w()), scaled(pose.translation));
-    body_->setWorldTransform(transform);
-    body_->setInterpolationWorldTransform(transform);
+    // Bodies leave and come back, so that nothing is left of contacts and of the order in which they were
+    // found.
+    world_.removeRigidBody(body_.get());
+    world_.removeRigidBody(object_.get());
+    broadphase_.resetPool(&dispatcher_);
+    solver_.reset();
     const btVector3 zero(0.0, 0.0, 0.0);
+    body_->setCenterOfMassTransform(transform);
     body_->setLinearVelocity(zero);
     body_->setAngularVelocity(zero);
     body_->setInterpolationLinearVelocity(zero);
     body_->setInterpolationAngularVelocity(zero);
     body_->clearForces();
-    broadphase_.getOverlappingPairCache()->cleanProxyFromPairs(body_->getBroadphaseHandle(), &dispatcher_);
-    solver_.reset();
+    world_.addRigidBody(object_.get());
+    world_.addRigidBody(body_.get());
     device_.reset(pose);
   }
 
@@ -182,8 +187,7 @@ std::unique_ptr<CoupledTool> make_chai3d_tool(const CoupledScene& scene, double 
                                 .inertia = mass * length * length,
                                 .feeds_velocity_forward = false};
   return std::make_unique<BulletTool>(
-      scene, BulletSettings{"Bullet, CHAI3D's constants", 1, scale, 33e-6, 0.2, 0.2, 10, coupling},
-      tick_seconds);
+      scene, BulletSettings{"Bullet as CHAI3D", 1, scale, 33e-6, 0.2, 0.2, 10, coupling}, tick_seconds);
 }
 
 }  // namespace feeler::rivals

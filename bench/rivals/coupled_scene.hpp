@@ -2,10 +2,8 @@
 // the tool.
 #pragma once
 
-#include <cmath>
 #include <concepts>
 #include <limits>
-#include <numbers>
 #include <variant>
 #include <vector>
 
@@ -14,7 +12,7 @@
 
 namespace feeler::rivals {
 
-/// A closed surface or several; triangles counter-clockwise seen from outside.
+/// Closed surfaces, triangles counter-clockwise seen from outside; or a line, as a triangle without area.
 struct Surface {
   std::vector<Vector3<double>> vertices;  ///< [m]
   std::vector<Eigen::Vector3i> triangles;
@@ -30,27 +28,19 @@ struct CoupledScene {
   double clearance;  ///< the least free play of the tool in the object [m]; infinite where nothing fits
 };
 
-/// Radius of the capsule or prism that stands for a line where an engine needs a volume [m].
+/// Radius of the capsule that stands for a line where an engine needs a volume [m].
 inline constexpr double line_radius = 1e-4;
 
-/// Appends a fan for each face of a convex piece; a piece without faces is a line and becomes a thin prism.
+/// Appends a fan for each face of a convex piece; a piece without faces is a line and becomes a triangle
+/// without area.
 template <ConvexTool Piece>
 void add_surface(const Piece& piece, Surface& surface) {
-  if (piece.face_count() == 0) {
-    const Vector3<double> start = piece.vertex(piece.edge(0).start), end = piece.vertex(piece.edge(0).end);
-    const Vector3<double> across = (end - start).unitOrthogonal(),
-                          other = (end - start).normalized().cross(across);
-    Points<double> prism(12, 3);
-    for (int i = 0; i < 6; ++i) {
-      const double angle = double(i) * std::numbers::pi / 3.0;
-      const Vector3<double> out = line_radius * (std::cos(angle) * across + std::sin(angle) * other);
-      prism.row(2 * i) = (start + out).transpose();
-      prism.row(2 * i + 1) = (end + out).transpose();
-    }
-    return add_surface(ConvexPolytope<double>::hull_of(prism), surface);
-  }
   const int first = int(surface.vertices.size());
   for (int i = 0; i < piece.vertex_count(); ++i) surface.vertices.emplace_back(piece.vertex(i));
+  if (piece.face_count() == 0) {
+    const ToolEdge line = piece.edge(0);
+    surface.triangles.emplace_back(first + line.start, first + line.end, first + line.end);
+  }
   for (int i = 0; i < piece.face_count(); ++i) {
     const auto face = piece.face(i).vertices;
     for (std::size_t k = 2; k < face.size(); ++k) {
