@@ -7,7 +7,7 @@
 #include "rivals/contest.hpp"
 #include "rivals/coupled_scene.hpp"
 #include "rivals/engines.hpp"
-#include "rivals/feeler_tool.hpp"
+#include "rivals/make_feeler_tool.hpp"
 
 namespace feeler::rivals {
 
@@ -34,8 +34,8 @@ class Arena {
                  .pieces = {}} {
     for (int i = 0; i < piece_count(tool); ++i)
       contest_.pieces.push_back(test::checked_tool(piece_of(tool, i)));
-    contest_.tools.push_back(std::make_unique<FeelerTool<Tool>>(object_, tool, setting_));
-    contest_.free_tools.push_back(std::make_unique<FeelerTool<Tool>>(far_object_, tool, elsewhere_));
+    contest_.tools.push_back(make_feeler_tool(object_, tool, setting_));
+    contest_.free_tools.push_back(make_feeler_tool(far_object_, tool, elsewhere_));
     if (!has_rivals) return;
     for (auto& engine : make_engines(scene_, tick_seconds)) contest_.tools.push_back(std::move(engine));
     for (auto& engine : make_engines(free_scene_, tick_seconds))

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <ctime>
+#include <limits>
 
 #include "feeler/spatial/metric.hpp"
 #include "rivals/side_of_object.hpp"
@@ -91,18 +92,20 @@ void judge(const Contest& contest, const Track& track, int check_every, Score& s
   }
 }
 
-/// The motion with a stop after each second; gives up when the contender has taken too long.
+/// The motion with a stop after each second; gives up when the contender has taken too long, with NaN before
+/// the first stop.
 double jitter(CoupledTool& tool, const Contest& contest, const ContestOptions& options) {
   const auto metric = Metric<double>::with_length(contest.length);
   const int second = int(options.rate), held = second / 2, settling = held * 3 / 5;
   const double begin = thread_time();
-  double worst = 0.0;
+  double worst = std::numeric_limits<double>::quiet_NaN();
   tool.reset(contest.start);
   for (int moved = 1; moved <= int(options.seconds * options.rate); ++moved) {
     const Pose<double> device = contest.motion(double(moved) / options.rate);
     tool.update(device);
     if (moved % second == 0) {
       Pose<double> settled;
+      if (std::isnan(worst)) worst = 0.0;
       for (int i = 0; i < held; ++i) {
         const Pose<double> pose = tool.update(device).graphic_pose;
         if (i <= settling) settled = pose;

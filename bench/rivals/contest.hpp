@@ -45,7 +45,8 @@ struct Score {
   int samples = 0;                    ///< ticks looked at, in contact or not
   double deepest = 0;                 ///< penetration by the independent checker over the samples [m]
   int crossed = 0;    ///< samples in which the centre of the tool was on the other side of the object
-  double jitter = 0;  ///< with the device held: the farthest that a settled tool moves, in the metric [m]
+  double jitter = 0;  ///< with the device held: the farthest that a settled tool moves, in the metric [m];
+                      ///< NaN where it dropped out before
   double lag = 0;     ///< behind the device in free space [m]
   bool is_repeatable = true;  ///< all runs gave the same poses to the last bit
   int touching = 0;           ///< of a query: ticks in contact for which it says that tool and object touch

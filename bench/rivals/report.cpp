@@ -16,6 +16,7 @@ constexpr const char* reference_rival = "ODE ×4";
 
 /// Two significant digits, without an exponent where it can be read without.
 std::string rounded(double value) {
+  if (std::isnan(value)) return "–";
   std::array<char, 32> text;
   const char* format = value >= 10.0 ? "%.0f" : value >= 0.1 ? "%.1f" : "%.1g";
   std::snprintf(text.data(), text.size(), value == 0.0 ? "%.0f" : format, value);
