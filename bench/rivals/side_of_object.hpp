@@ -50,24 +50,31 @@ class SideOfObject {
  private:
   using Vector = test::WideVector;
 
-  static bool is_positive(const Vector& a, const Vector& b, const Vector& c) {
-    return a.dot(b.cross(c)) >= 0;
+  static test::WideReal volume(const Vector& a, const Vector& b, const Vector& c) {
+    return a.dot(b.cross(c));
   }
 
-  /// Ends on two sides of the plane, and all edges passed on the same side. An edge gives two triangles
-  /// opposite signs, so none is passed between them.
+  /// On which side the line through a along `way` passes an edge. Reversed, the edge has the other sign to
+  /// the last bit, and where the line meets it, the order of its ends decides: of two triangles that share
+  /// it, exactly one is crossed.
+  static bool is_passed_left(const Vector& a, const Vector& way, const Vector& from, const Vector& to) {
+    const test::WideReal v = volume(way, from - a, to - a);
+    if (v != 0) return v > 0;
+    return std::lexicographical_compare(from.data(), from.data() + 3, to.data(), to.data() + 3);
+  }
+
+  /// Ends on two sides of the plane, and all edges passed on the same side.
   bool is_crossed(int triangle, const Eigen::Vector3d& place) const {
     const Vector a = place_.cast<test::WideReal>(), b = place.cast<test::WideReal>();
     std::array<Vector, 3> corners;
     for (int k = 0; k < 3; ++k) corners[std::size_t(k)] = object_.corner(triangle, k);
     const auto is_above = [&](const Vector& point) {
-      return is_positive(corners[0] - point, corners[1] - point, corners[2] - point);
+      return volume(corners[0] - point, corners[1] - point, corners[2] - point) >= 0;
     };
     if (is_above(a) == is_above(b)) return false;
-    const auto is_passed = [&](std::size_t from, std::size_t to) {
-      return is_positive(b - a, corners[from] - a, corners[to] - a);
-    };
-    return is_passed(0, 1) == is_passed(1, 2) && is_passed(1, 2) == is_passed(2, 0);
+    const bool first = is_passed_left(a, b - a, corners[0], corners[1]);
+    return first == is_passed_left(a, b - a, corners[1], corners[2]) &&
+           first == is_passed_left(a, b - a, corners[2], corners[0]);
   }
 
   const test::CheckedObject& object_;
