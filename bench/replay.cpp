@@ -13,13 +13,9 @@
 
 #include "../device/demo/mesh_file.hpp"
 #include "feeler/feeler.hpp"
-#include "scenes/cavity.hpp"
+#include "scenes/catalogue.hpp"
 #include "scenes/motions.hpp"
-#include "scenes/spline.hpp"
-#include "scenes/steps.hpp"
-#include "scenes/sulcus.hpp"
 #include "scenes/teeth.hpp"
-#include "scenes/terrain.hpp"
 #include "support/penetration_checker.hpp"
 
 namespace {
@@ -181,24 +177,13 @@ int main(int argc, char** argv) {
   app.add_option("--margin", options.margin, "Settings::margin in metres; 0 for the default")->check(CLI::NonNegativeNumber);
   CLI11_PARSE(app, argc, argv);
 
-  const auto wanted = [&](const char* name) { return options.scene == "all" || options.scene == name; };
+  const auto wanted = [&](const std::string& name) { return options.scene == "all" || options.scene == name; };
   try {
     print_header();
-    if (wanted("cavity")) {
-      run("cavity 1 mm", feeler::scenes::cavity(1e-3), options);
-      run("cavity 10 um", feeler::scenes::cavity(1e-5), options);
-      run("cavity 0", feeler::scenes::cavity(0.0), options);
+    for (const auto& entry : feeler::scenes::catalogue()) {
+      if (!wanted(entry.family)) continue;
+      std::visit([&](const auto& scene) { run(entry.label, scene, options); }, entry.make());
     }
-    if (wanted("steps")) {
-      run("steps, line", feeler::scenes::steps(), options);
-      run("steps, prism", feeler::scenes::steps_with_prism(), options);
-    }
-    if (wanted("spline")) {
-      run("spline 200 um", feeler::scenes::spline(2e-4), options);
-      run("spline 20 um", feeler::scenes::spline(2e-5), options);
-      run("spline 0", feeler::scenes::spline(0.0), options);
-    }
-    if (wanted("sulcus")) run("sulcus", feeler::scenes::sulcus(), options);
     if (wanted("teeth")) {
       const std::filesystem::path file = "../shared/meshes/lower_teeth.stl";
       if (std::filesystem::exists(file)) {
@@ -206,11 +191,6 @@ int main(int argc, char** argv) {
         run("teeth", feeler::scenes::lower_teeth(feeler::scenes::teeth_vertices(mesh.vertices), std::move(mesh.triangles)), options);
       } else {
         std::printf("teeth: skipped, %s is not here\n", file.c_str());
-      }
-    }
-    if (wanted("terrain")) {
-      for (const int cells : {22, 71, 224, 707}) {
-        run("terrain " + std::to_string(2 * cells * cells), feeler::scenes::terrain(cells), options);
       }
     }
   } catch (const std::exception& problem) {
