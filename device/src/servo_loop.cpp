@@ -45,6 +45,7 @@ const RealTimeSetup& ServoLoop::start() {
       refuse("servo loop: the latest tick of the force limits must be longer than the period, or every tick is late");
     }
     safety_ = std::make_unique<ForceSafety>(limits, device);
+    if (settings_.passivity) passivity_ = std::make_unique<PassivityControl>(*settings_.passivity);
     if (settings_.recorder != nullptr) settings_.recorder->describe(device, limits);
   }
   is_started_ = true;
@@ -87,6 +88,7 @@ bool ServoLoop::render_to_device(const ServoTick& tick) {
   if (force_tick_.status != DeviceStatus::fault) force_tick_.status = status;
   const bool has_pose = force_tick_.status == DeviceStatus::ok || force_tick_.status == DeviceStatus::warning;
   force_tick_.wanted = has_pose ? render_(tick, force_tick_.state) : DeviceWrench{};
+  if (passivity_ && has_pose) force_tick_.wanted = passivity_->damped(force_tick_.state, force_tick_.wanted);
   force_tick_.request = force_request_.exchange(ForceRequest::none, std::memory_order_relaxed);
   const std::int64_t now = clock_.now();
   force_tick_.now = double(now) * 1e-9;
@@ -94,6 +96,7 @@ bool ServoLoop::render_to_device(const ServoTick& tick) {
 
   const DeviceWrench pushed = safety_->step(force_tick_);
   const DeviceStatus written = device_->write(pushed);
+  if (passivity_) passivity_->pushed(pushed);
   force_phase_.store(safety_->phase(), std::memory_order_relaxed);
   force_fault_.store(safety_->fault(), std::memory_order_relaxed);
   if (settings_.recorder != nullptr) settings_.recorder->add({force_tick_, pushed, safety_->phase(), safety_->fault()});
@@ -111,6 +114,7 @@ void ServoLoop::let_go() noexcept {
     force_fault_.store(safety_->fault(), std::memory_order_relaxed);
   }
   report_.force = safety_->report();
+  if (passivity_) report_.passivity = passivity_->report();
   if (is_lost) {
     report_.problem = std::string("The device was lost, so the force is off and the loop ended. ") + device_->complaint();
   }

@@ -49,6 +49,10 @@ std::string to_string(const ServoReport& report) {
   write_tail(out, "wake-up latency", report.wake_up_latency);
   write_tail(out, "compute time", report.compute_time);
   write_force(out, report.force);
+  if (report.passivity.ticks_damped > 0) {
+    out << "passivity: the renderer gave the hand up to " << -report.passivity.lowest_energy << " J; damped in "
+        << report.passivity.ticks_damped << " ticks\n";
+  }
   if (!report.problem.empty()) out << report.problem << "\n";
   return out.str();
 }

@@ -12,6 +12,7 @@
 #include "feeler/device/clock.hpp"
 #include "feeler/device/device.hpp"
 #include "feeler/device/force_safety.hpp"
+#include "feeler/device/passivity_control.hpp"
 #include "feeler/device/real_time.hpp"
 #include "feeler/device/servo_report.hpp"
 
@@ -26,6 +27,7 @@ struct ServoSettings {
   RealTimeRequest real_time = {};  ///< a loop that does not wait is not given SCHED_FIFO: it would freeze its processor
 
   std::optional<ForceLimits> force_limits = {};  ///< of a loop with a device; none are those that suit the device
+  std::optional<PassivitySettings> passivity = {};  ///< of a loop with a device: damps the renderer's wish before `ForceSafety`; none does not exist
   SessionRecorder* recorder = nullptr;           ///< of a loop with a device: takes every tick; outlives the loop
 };
 
@@ -38,7 +40,7 @@ struct ServoTick {
 
 /// Runs a callback at a rate, with absolute deadlines, on a thread of its own.
 ///
-/// With a device a tick is: read, render, `ForceSafety`, write. The safety is always on. Whatever ends the loop, a force of zero is the last
+/// With a device a tick is: read, render, `PassivityControl` if asked for, `ForceSafety`, write. The safety is always on. Whatever ends the loop, a force of zero is the last
 /// thing written; a device that is lost ends it.
 ///
 /// A tick that ends after the next deadline makes the loop skip every deadline that has passed, and counts them: catching up would push
@@ -96,6 +98,7 @@ class ServoLoop {
   Clock& clock_;
   Device* device_ = nullptr;
   Render render_;
+  std::unique_ptr<PassivityControl> passivity_;
   std::unique_ptr<ForceSafety> safety_;
   ForceSafety::Tick force_tick_;  // of the loop's thread
   std::atomic<ForceRequest> force_request_ = ForceRequest::none;

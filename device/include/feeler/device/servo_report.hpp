@@ -6,6 +6,7 @@
 
 #include "feeler/device/force_safety.hpp"
 #include "feeler/device/histogram.hpp"
+#include "feeler/device/passivity_control.hpp"
 #include "feeler/device/real_time.hpp"
 
 namespace feeler {
@@ -19,6 +20,7 @@ struct ServoReport {
   Histogram wake_up_latency;    ///< from the deadline to the start of the callback [ns]; empty when it did not wait
   Histogram compute_time;       ///< of the callback [ns]
   ForceReport force;            ///< what the safety did; of a loop with a device
+  PassivityReport passivity;    ///< of a loop that was asked to keep the hand passive
   std::string problem;          ///< why it ended before it was told to, as one sentence; empty if it did not
 };
 
