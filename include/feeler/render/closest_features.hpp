@@ -30,6 +30,9 @@ class ClosestFeaturesFollower {
   using Piece = typename Scene::Piece;
 
   const Pose<Scalar>& pose() const noexcept { return pose_; }
+  /// Of the last tick: where the hand was, and the last step that was solved for.
+  const Pose<Scalar>& target() const noexcept { return target_; }
+  const auto& problem() const noexcept { return problem_; }
 
   void reset(const Scene& scene, const Pose<Scalar>& pose) noexcept {
     pose_ = pose;

@@ -61,6 +61,8 @@ class StepProblem {
   const QpSolution<Scalar>& solution() const noexcept { return solution_; }
   /// Separation of a row after the step, to first order [m].
   Scalar gap_after(int k) const noexcept { return rows_[k].gap + problem_.rows[index(k)].dot(solution_.step); }
+  /// Room that the last step left to a row before it would stop it, to first order [m]; 0 for an active one.
+  Scalar room_after(int k) const noexcept { return problem_.rows[index(k)].dot(solution_.step) - problem_.bounds[index(k)]; }
 
   /// The step that minimises f with its own Hessian or, where contacts hold, with the Hessian of the Lagrangian.
   const Vector6<Scalar>& solve(const Metric<Scalar>& metric, const Twist<Scalar>& graphic_from_haptic,
