@@ -1,6 +1,8 @@
 // From the plain numbers of a device to the poses and wrenches of the renderer, and back; compiled on the user's side only.
 #pragma once
 
+#include <cstddef>
+
 #include "feeler/device/device_state.hpp"
 
 namespace feeler {
@@ -37,6 +39,14 @@ DeviceWrench to_device_wrench(const WrenchType& wrench) noexcept {
     converted.torque[i] = double(wrench.torque[i]);
   }
   return converted;
+}
+
+/// A 6×6 matrix, row by row, for the `derivative` of a `WrenchModel`.
+template <class Matrix, class Numbers>
+void store_derivative(const Matrix& matrix, Numbers& numbers) noexcept {
+  for (int row = 0; row < 6; ++row) {
+    for (int column = 0; column < 6; ++column) numbers[std::size_t(6 * row + column)] = double(matrix(row, column));
+  }
 }
 
 }  // namespace feeler
