@@ -186,6 +186,24 @@ BOOST_AUTO_TEST_CASE(the_coefficient_of_the_jacobian_is_one_function) {
   }
 }
 
+BOOST_AUTO_TEST_CASE(the_derivative_of_a_pull_is_its_slope_for_large_turns_too) {
+  const Vector3<double> weights(1, 0.3, 2.1);
+  for (const Vector3<double>& phi : {Vector3<double>(0.1, -0.2, 0.1), Vector3<double>(1.1, -0.7, 1.9)}) {
+    for (const int side : {1, -1}) {
+      const auto pull = [&](const Vector3<double>& turn) {
+        return Vector3<double>(inverse_left_jacobian<double>(side * turn).transpose() * weights.cwiseProduct(turn));
+      };
+      constexpr double step = 1e-5;
+      Matrix3<double> slope;
+      for (int axis = 0; axis < 3; ++axis) {
+        const Vector3<double> small = step * Vector3<double>::Unit(axis);
+        slope.col(axis) = (pull(phi + small) - pull(phi - small)) / (2 * step);
+      }
+      BOOST_TEST((feeler::detail::derivative_of_pull<double>(weights, phi, side) - slope).cwiseAbs().maxCoeff() < 1e-7);
+    }
+  }
+}
+
 #if FEELER_TEST_COUNTS_ALLOCATIONS
 BOOST_AUTO_TEST_CASE(asking_allocates_nothing) {
   const auto scene = scenes::cavity(1e-3);
