@@ -30,6 +30,13 @@ void store(const Vector3<double>& from, double (&to)[3]) noexcept {
   for (int i = 0; i < 3; ++i) to[i] = from[i];
 }
 
+/// Takes so much off the length of a velocity.
+void rub(Vector3<double>& velocity, double loss) noexcept {
+  if (!(loss > 0)) return;
+  const double speed = velocity.norm();
+  velocity = speed > loss ? Vector3<double>(velocity * (1 - loss / speed)) : Vector3<double>::Zero();
+}
+
 }  // namespace
 
 SimulatedHand::SimulatedHand(DevicePath path, const Handle& handle, const Grip& grip, double period, int substeps)
@@ -38,6 +45,7 @@ SimulatedHand::SimulatedHand(DevicePath path, const Handle& handle, const Grip& 
   require(bool(path_), "simulated hand: the path is empty; give a callable from seconds to a pose");
   require(handle.mass > 0 && handle.inertia > 0, "simulated hand: the handle needs a positive mass and inertia");
   require(handle.damping >= 0 && handle.rotational_damping >= 0, "simulated hand: a negative damping of the handle drives it");
+  require(handle.friction >= 0 && handle.rotational_friction >= 0, "simulated hand: a negative friction of the handle drives it");
   require(grip.stiffness >= 0 && grip.rotational_stiffness >= 0 && grip.damping_ratio >= 0,
           "simulated hand: stiffness and damping of the grip must not be negative");
   require(period > 0 && std::isfinite(period) && substeps > 0, "simulated hand: the period and its substeps must be positive");
@@ -88,6 +96,8 @@ double SimulatedHand::time() const noexcept { return double(ticks_) * period_; }
                                    handle_.rotational_damping * spin + pushed_torque;
     velocity += force * (step / handle_.mass);
     spin += torque * (step / handle_.inertia);
+    rub(velocity, handle_.friction * (step / handle_.mass));
+    rub(spin, handle_.rotational_friction * (step / handle_.inertia));
     base_from_handle = moved(base_from_handle, {velocity * step, spin * step});
   }
 

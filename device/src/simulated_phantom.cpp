@@ -9,15 +9,21 @@
 namespace feeler {
 namespace {
 
-Handle handle_of(const DeviceSpecification& device) noexcept {
-  return {device.apparent_mass, device.apparent_inertia, device.damping, device.rotational_damping};
+Handle handle_of(const SimulatedPhantomSettings& settings) noexcept {
+  const DeviceSpecification& device = settings.specification;
+  return {.mass = device.apparent_mass,
+          .inertia = device.apparent_inertia,
+          .damping = device.damping,
+          .rotational_damping = device.rotational_damping,
+          .friction = settings.has_friction ? device.friction : 0,
+          .rotational_friction = settings.rotational_friction};
 }
 
 }  // namespace
 
 SimulatedPhantom::SimulatedPhantom(DevicePath path, const SimulatedPhantomSettings& settings)
     : settings_(settings),
-      at_start_(std::move(path), handle_of(settings.specification), settings.grip, settings.period, settings.substeps),
+      at_start_(std::move(path), handle_of(settings), settings.grip, settings.period, settings.substeps),
       hand_(at_start_) {}
 
 OpenResult SimulatedPhantom::open() {

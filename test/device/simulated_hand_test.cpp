@@ -100,6 +100,26 @@ BOOST_AUTO_TEST_CASE(a_steady_hand_drags_the_handle_behind_by_the_damping_of_the
   BOOST_TEST(speed * hand.time() - hand.pose().position[0] == 0.5 * speed / 1000, boost::test_tools::tolerance(1e-9));
 }
 
+BOOST_AUTO_TEST_CASE(friction_takes_its_part_of_a_push_and_holds_a_weaker_one) {
+  constexpr Handle handle = {.mass = 0.159, .inertia = 2e-4, .damping = 0, .rotational_damping = 0, .friction = 0.2, .rotational_friction = 0.01};
+  constexpr Grip no_grip = {.stiffness = 0, .rotational_stiffness = 0};
+  const auto tolerance = boost::test_tools::tolerance(0.01);  // first order in a substep of 1e-4 s
+  SimulatedHand pushed(resting, handle, no_grip);
+  run(pushed, {{0.6, 0, 0.8}, {0, 0.012, 0}}, 0.1);
+  // a = (F − f)/m along the push
+  BOOST_TEST(pushed.pose().position[0] == 0.6 * (0.8 / 0.159) * 0.01 / 2, tolerance);
+  BOOST_TEST(pushed.pose().position[2] == 0.8 * (0.8 / 0.159) * 0.01 / 2, tolerance);
+  BOOST_TEST(angle_about_y(pushed.pose()) == (0.002 / 2e-4) * 0.01 / 2, tolerance);
+  run(pushed, {}, 5.0);  // comes to rest: v²/2 = f/m x
+  const double speed = 0.8 / 0.159 * 0.1;
+  BOOST_TEST(pushed.pose().position[0] == 0.6 * ((0.8 / 0.159) * 0.01 / 2 + speed * speed / 2 * 0.159 / 0.2), tolerance);
+
+  SimulatedHand held(resting, handle, no_grip);
+  run(held, {{0.19, 0, 0}, {0, 0.0099, 0}}, 1.0);
+  BOOST_TEST(held.pose().position[0] == 0);
+  BOOST_TEST(angle_about_y(held.pose()) == 0);
+}
+
 BOOST_AUTO_TEST_CASE(a_steady_turn_keeps_the_quaternion_a_unit_one) {
   SimulatedHand hand([](double t) { return turned_about_y(2 * t); });
   for (int i = 0; i < 20'000; ++i) {

@@ -19,6 +19,8 @@ struct Handle {
   double inertia = 2e-4;             ///< [kg·m²]
   double damping = 0.5;              ///< of the mechanism, against the base [N·s/m]
   double rotational_damping = 2e-4;  ///< of the gimbal, against the base [N·m·s/rad]
+  double friction = 0;               ///< Coulomb, of the mechanism against the base [N]
+  double rotational_friction = 0;    ///< of the gimbal [N·m]
 };
 
 /// A hand as a spring and a damper between its own path and the handle. The defaults are a relaxed human grip.
@@ -36,7 +38,8 @@ struct Grip {
 ///     m a = k (x_path − x) + c (v_path − v) − b v + F,   c = 2 ζ √(k m)
 ///
 /// and the same for rotations, with e = Log(R_path Rᵀ). Time advances by the period only, never by a clock: the same path, seed and
-/// wrenches give the same poses, bit for bit. Inertia, not friction: Coulomb friction is not modelled.
+/// wrenches give the same poses, bit for bit. Coulomb friction takes speed off at the end of each substep, and never turns it: a handle
+/// sticks where nothing pushes it harder.
 class SimulatedHand {
  public:
   /// At rest on the start of the path.

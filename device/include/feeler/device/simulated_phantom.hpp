@@ -12,6 +12,8 @@ struct SimulatedPhantomSettings {
   Grip grip = {};
   double period = 1e-3;  ///< by which each `read` advances the simulation [s]
   int substeps = 10;     ///< of the integration, per period
+  bool has_friction = false;         ///< the Coulomb friction of the specification
+  double rotational_friction = 0;    ///< of the gimbal, which no specification tells [N·m]
 };
 
 /// A device whose hand follows a path. Each `read` after the first is one tick of `period`, so it never asks a clock.
