@@ -174,7 +174,7 @@ std::unique_ptr<CoupledTool> make_bullet_tool(const CoupledScene& scene, int sub
   return std::make_unique<BulletTool>(
       scene,
       BulletSettings{"Bullet ×" + std::to_string(substeps), substeps, 100.0, margin, 0.8, 0.8, 10,
-                     SpringCoupling::of_length(scene.setting.length)},
+                     SpringCoupling::of_stiffness(scene.setting.stiffness())},
       tick_seconds);
 }
 

@@ -59,7 +59,7 @@ class OdeTool final : public CoupledTool {
  public:
   OdeTool(const CoupledScene& scene, int substeps, double tick_seconds)
       : name_("ODE ×" + std::to_string(substeps)),
-        coupling_(SpringCoupling::of_length(scene.setting.length)),
+        coupling_(SpringCoupling::of_stiffness(scene.setting.stiffness())),
         substeps_(substeps),
         tick_seconds_(tick_seconds) {
     world_ = dWorldCreate();

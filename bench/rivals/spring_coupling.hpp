@@ -18,10 +18,15 @@ struct SpringCoupling {
   bool feeds_velocity_forward =
       true;  ///< the damper acts on the velocity relative to the device's; else on the body's own
 
-  /// K = 1000 N/m × diag(1, 1, 1, r², r², r²) and a body of 40 g and inertia m r²: both motions have the same
-  /// time constant of 6 ms.
-  static SpringCoupling of_length(double r) {
-    return {.rotational_stiffness = 1000.0 * r * r, .inertia = 0.04 * r * r};
+  /// An isotropic K and a body of 40 g and the inertia that gives both motions the same time constant: 6 ms at
+  /// 1000 N/m.
+  static SpringCoupling of_stiffness(const Stiffness<double>& k) {
+    const double stiffness = k.translational.x(), rotational_stiffness = k.rotational.x();
+    constexpr double mass = 0.04;
+    return {.stiffness = stiffness,
+            .rotational_stiffness = rotational_stiffness,
+            .mass = mass,
+            .inertia = mass * rotational_stiffness / stiffness};
   }
 
   /// Critical damping [N·s/m], [N·m·s/rad].

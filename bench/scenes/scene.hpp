@@ -32,9 +32,10 @@ struct Setting {
   Vector3<double> tip = Vector3<double>::Zero();  ///< point of the tool to look at, in the tool frame [m]
   double length = 0.01;                           ///< L of the metric diag(1, 1, 1, L², L², L²) [m]
   double duration = 10.0;                         ///< of a full run [s]
+  double hardness = 1000.0;                       ///< K as a multiple of M [N/m]; figures are compared at 1000
 
-  /// K = 1000 N/m × M: the stiffness at which figures are compared.
-  Stiffness<double> stiffness() const { return Stiffness<double>::uniform(1000.0, 1000.0 * length * length); }
+  /// K = hardness × M.
+  Stiffness<double> stiffness() const { return Stiffness<double>::uniform(hardness, hardness * length * length); }
 
   /// The library's defaults with the stiffness of the scene; the reference point is the origin of the tool
   /// frame.
