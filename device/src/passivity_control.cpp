@@ -51,6 +51,7 @@ PassivitySettings passivity_of(const DeviceSpecification& device, double period)
   if (device.position_resolution > 0 && device.friction > 0) {
     settings.damping = std::min(settings.damping, device.friction * period / device.position_resolution);
   }
+  settings.allowance = device.continuous_force * device.position_resolution;
   if (device.pushes_torque()) settings.rotational_damping = device.apparent_inertia / (4 * period);
   return settings;
 }

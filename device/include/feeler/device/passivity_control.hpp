@@ -26,7 +26,9 @@ struct PassivitySettings {
 };
 
 /// The settings that suit a device: a damper that a sampled loop still renders, D ≤ m/(4T), and of which one
-/// encoder count a tick makes no more force than the friction holds, D ≤ f_c T/Δ.
+/// encoder count a tick makes no more force than the friction holds, D ≤ f_c T/Δ; and an allowance of the
+/// continuous force over one count, because a count that flips looks like energy. With less, the damper hums
+/// in the noise of the encoders (docs/stability.md).
 /// @param period  of the servo loop [s]
 PassivitySettings passivity_of(const DeviceSpecification& device, double period);
 
