@@ -18,6 +18,7 @@
 #include "feeler/object/triangle_mesh.hpp"
 #include "feeler/spatial/pose.hpp"
 #include "feeler/tool/convex_tool.hpp"
+#include "feeler/tool/swept_tool.hpp"
 
 namespace feeler {
 
@@ -42,6 +43,7 @@ inline constexpr double default_contact_tolerance = 2e-6;
 template <ConvexTool Tool_, RealScalar MeshScalar_ = typename Tool_::Scalar>
 class ContactRecogniser {
  public:
+  static_assert(!SweptTool<Tool_>, "ContactRecogniser tells features apart, and a swept tool has none on its surface: give it the core");
   using Scalar = WorkingScalar<typename Tool_::Scalar>;
   using Tool = ToolCast<Tool_, Scalar>;
   using MeshScalar = MeshScalar_;

@@ -18,6 +18,7 @@
 #include "feeler/render/rendered_scene.hpp"
 #include "feeler/render/step_coordinates.hpp"
 #include "feeler/render/tick.hpp"
+#include "feeler/tool/swept_tool.hpp"
 
 namespace feeler {
 
@@ -53,6 +54,7 @@ struct CandidateOptions {
 template <ConvexTool ToolType, QpSolver Solver, CandidateOptions options>
 class CandidateContactsFollower {
  public:
+  static_assert(!SweptTool<ToolType>, "CandidateContacts knows vertices, edges and faces only: take ClosestFeatures for a swept tool");
   using Scene = RenderedScene<ToolType>;
   using Scalar = typename Scene::Scalar;
   using MeshScalar = typename Scene::MeshScalar;

@@ -5,6 +5,7 @@
 
 #include "feeler/core/requirement.hpp"
 #include "feeler/tool/convex_tool.hpp"
+#include "feeler/tool/symmetry.hpp"
 
 namespace feeler {
 
@@ -13,6 +14,7 @@ template <RealScalar Scalar_>
 class Segment {
  public:
   using Scalar = Scalar_;
+  static constexpr Symmetry symmetry = Symmetry::about_axis;
 
   /// Refuses ends that are equal or not finite.
   Segment(const Vector3<Scalar>& start, const Vector3<Scalar>& end) : start_(start), end_(end) {
