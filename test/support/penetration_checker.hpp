@@ -16,12 +16,9 @@
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 
-namespace feeler::test {
+#include "support/wide_closest.hpp"
 
-using WideReal = long double;
-static_assert(std::numeric_limits<WideReal>::digits > std::numeric_limits<double>::digits,
-              "the checker needs a long double that is wider than double");
-using WideVector = Eigen::Matrix<WideReal, 3, 1>;
+namespace feeler::test {
 
 /// Answer of the checker. `depth` is 0 where nothing penetrates and infinite for a pose that is not finite.
 struct Penetration {
@@ -65,24 +62,6 @@ inline CheckedPose pose_on_path(const CheckedPose& pose0, const CheckedPose& pos
 
 namespace detail {
 
-constexpr WideReal rounding = std::numeric_limits<WideReal>::epsilon();
-
-/// Unit normal of the plane of two directions, for any length of the two; zero when they are parallel to the
-/// last bit.
-///
-/// The cross product of directions at a small angle α has a relative error of rounding/α. Its part along `a`
-/// is removed; what is left turns the normal about `a`, where the two directions span a width of α only, so
-/// that the error of a separation measured along it is rounding × length, however small α is. No
-/// near-parallel pair has to be skipped.
-inline WideVector normal_of(const WideVector& a, const WideVector& b) {
-  const WideVector unit_a = a.stableNormalized();
-  WideVector normal = unit_a.cross(b.stableNormalized());
-  if (!(normal.norm() > rounding)) return WideVector::Zero();
-  normal.normalize();
-  normal -= unit_a.dot(normal) * unit_a;
-  return normal.normalized();
-}
-
 inline bool is_parallel(const WideVector& unit_a, const WideVector& unit_b) {
   return unit_a.cross(unit_b).norm() <= 2 * rounding;
 }
@@ -96,13 +75,15 @@ inline void add_axis(std::vector<WideVector>& axes, const WideVector& unit) {
 
 }  // namespace detail
 
-/// A convex tool in its own frame: a polyhedron, or, without faces, a segment; a flat polygon is one face.
+/// A convex tool in its own frame: a polyhedron, or, without faces, a segment, or a point; a flat polygon is one face. With a radius, all
+/// points so near to that.
 struct CheckedTool {
   /// @param tool_vertices  n×3 [m]
   /// @param edges          pairs of vertex indices; all edges of the hull, more do no harm
   /// @param faces          loops of vertex indices, in any sense; all faces of the hull
   CheckedTool(const Eigen::Matrix<double, Eigen::Dynamic, 3>& tool_vertices,
-              const std::vector<std::array<int, 2>>& edges, const std::vector<std::vector<int>>& faces) {
+              const std::vector<std::array<int, 2>>& tool_edges, const std::vector<std::vector<int>>& tool_faces)
+      : edges(tool_edges), faces(tool_faces) {
     for (int i = 0; i < tool_vertices.rows(); ++i) vertices.push_back(tool_vertices.row(i).cast<WideReal>());
     if (vertices.empty()) throw std::invalid_argument("checker: a tool needs a vertex");
     for (const auto& [start, end] : edges)
@@ -121,9 +102,22 @@ struct CheckedTool {
     }
   }
 
+  /// The tool swept by a ball of a radius [m].
+  CheckedTool swept_by(WideReal ball_radius) const {
+    CheckedTool result = *this;
+    result.radius += ball_radius;
+    result.lower.array() -= ball_radius;
+    result.upper.array() += ball_radius;
+    result.size += ball_radius;
+    return result;
+  }
+
   const WideVector& vertex(int i) const { return vertices.at(std::size_t(i)); }
 
   std::vector<WideVector> vertices;
+  std::vector<std::array<int, 2>> edges;
+  std::vector<std::vector<int>> faces;
+  WideReal radius = 0;                      ///< of the ball that sweeps all this
   std::vector<WideVector> edge_directions;  ///< unit, parallel ones once
   std::vector<WideVector> face_normals;     ///< unit, parallel ones once
   WideVector lower, upper;                  ///< bounds in the tool frame
@@ -131,7 +125,7 @@ struct CheckedTool {
 };
 
 /// From anything with `vertex_count()`, `vertex(i)`, `edge_count()`, `edge(i)` {start, end}, `face_count()`,
-/// `face(i).vertices`.
+/// `face(i).vertices`, and `swept_radius()` if it has one.
 template <class Tool>
 CheckedTool checked_tool(const Tool& tool) {
   Eigen::Matrix<double, Eigen::Dynamic, 3> vertices(tool.vertex_count(), 3);
@@ -149,7 +143,12 @@ CheckedTool checked_tool(const Tool& tool) {
     const auto face = tool.face(i);
     faces.emplace_back(face.vertices.begin(), face.vertices.end());
   }
-  return {vertices, edges, faces};
+  const CheckedTool core(vertices, edges, faces);
+  if constexpr (requires { tool.swept_radius(); }) {
+    return core.swept_by(static_cast<WideReal>(tool.swept_radius()));
+  } else {
+    return core;
+  }
 }
 
 /// A triangle soup and its bounds; triangles may be degenerate.
@@ -188,8 +187,7 @@ namespace detail {
 /// more is never wrong and one with s ≥ 0 proves that nothing penetrates. For overlapping bodies the best is
 /// attained at a facet of the Minkowski difference: a face of the tool, the triangle, or the plane of an edge
 /// of each.
-inline WideReal depth_in_triangle(const CheckedTool& tool, const std::array<WideVector, 3>& corners,
-                                  WideReal enough) {
+inline WideReal depth_of_core(const CheckedTool& tool, const std::array<WideVector, 3>& corners, WideReal enough) {
   WideReal depth = std::numeric_limits<WideReal>::infinity();
   const auto is_settled_by = [&](const WideVector& n) {
     WideReal tool_low = n.dot(tool.vertices.front()), tool_high = tool_low;
@@ -223,10 +221,32 @@ inline WideReal depth_in_triangle(const CheckedTool& tool, const std::array<Wide
   return depth;
 }
 
+/// Distance of the core of a tool from a triangle that it does not penetrate, by all pairs of features.
+inline WideReal distance_of_core(const CheckedTool& tool, const std::array<WideVector, 3>& corners) {
+  WidePair best;
+  for (const WideVector& v : tool.vertices)
+    best.take(v, closest_on_wide_triangle(v, corners[0], corners[1], corners[2]));
+  for (const auto& [start, end] : tool.edges)
+    for (std::size_t k = 0; k < 3; ++k)
+      take_segments(tool.vertex(start), tool.vertex(end), corners[k], corners[(k + 1) % 3], best);
+  for (const std::vector<int>& face : tool.faces)
+    for (std::size_t i = 2; i < face.size(); ++i)
+      for (const WideVector& y : corners)
+        best.take(closest_on_wide_triangle(y, tool.vertex(face[0]), tool.vertex(face[i - 1]), tool.vertex(face[i])), y);
+  return best.distance;
+}
+
+/// The same of the tool: a swept one is deeper than its core by the radius.
+inline WideReal depth_in_triangle(const CheckedTool& tool, const std::array<WideVector, 3>& corners, WideReal enough) {
+  if (tool.radius == 0) return depth_of_core(tool, corners, enough);
+  const WideReal depth = depth_of_core(tool, corners, 0);
+  return tool.radius + (depth > 0 ? depth : -distance_of_core(tool, corners));
+}
+
 }  // namespace detail
 
 /// The deepest penetration of the tool at a pose: max over triangles of max(0, −s), s = max over unit n of
-/// [min_i n·(p + R v_i) − max_{y∈τ} n·y]; a penetration below the rounding of long double counts as touching.
+/// [min_i n·(p + R v_i) − max_{y∈τ} n·y] − radius; a penetration below the rounding of long double counts as touching.
 ///
 /// @cost O(triangles): 1 ns each far away, 3 ns near, 0.3 µs where bounds meet, some 10 µs where the tool
 /// penetrates
@@ -249,10 +269,10 @@ inline Penetration deepest_penetration(const CheckedObject& object, const Checke
     WideReal bottom = heights(tool.vertices.front()), top = bottom;
     for (const WideVector& v : tool.vertices)
       bottom = std::min(bottom, heights(v)), top = std::max(top, heights(v));
-    const WideReal slack =
-        WideReal(4 * std::numeric_limits<double>::epsilon()) * std::max(std::abs(bottom), std::abs(top));
-    tool_bounds.min()[k] = static_cast<double>(bottom - slack);
-    tool_bounds.max()[k] = static_cast<double>(top + slack);
+    const WideReal slack = WideReal(4 * std::numeric_limits<double>::epsilon()) *
+                           (std::max(std::abs(bottom), std::abs(top)) + tool.radius);
+    tool_bounds.min()[k] = static_cast<double>(bottom - tool.radius - slack);
+    tool_bounds.max()[k] = static_cast<double>(top + tool.radius + slack);
   }
 
   for (std::size_t group = 0; group < object.block_bounds.size(); ++group) {

@@ -121,6 +121,38 @@ BOOST_AUTO_TEST_CASE(segment_through_a_triangle_is_as_deep_as_its_shorter_part) 
                       0.0078125) < 1e-18);
 }
 
+BOOST_AUTO_TEST_CASE(a_sphere_is_as_deep_as_its_centre_is_nearer_than_the_radius) {
+  const CheckedTool ball = CheckedTool(Vertices::Zero(1, 3), {}, {}).swept_by(0.5L);
+  for (const double depth : depths) {
+    BOOST_TEST(std::abs(depth_of(plane(), ball, shifted(1, 2, 0.5 - depth)) - depth) < 1e-16);   // over a face
+    BOOST_TEST(std::abs(depth_of(plane(), ball, shifted(8.5 - depth, 2, 0)) - depth) < 2e-15);   // beside the rim
+    const double aside = (0.5 - depth) / std::sqrt(3.0);  // off a corner of the square
+    BOOST_TEST(std::abs(depth_of(plane(), ball, shifted(8 + aside, 8 + aside, aside)) - depth) < 2e-15);
+  }
+  BOOST_TEST(depth_of(plane(), ball, shifted(0, 0, 0)) == 0.5);  // the centre in the plane
+  BOOST_TEST(depth_of(plane(), ball, shifted(0, 0, 0.5)) == 0);
+  BOOST_TEST(depth_of(plane(), ball, shifted(8.5, 0, 0)) == 0);
+  BOOST_TEST(depth_of(plane(), ball, shifted(8.36, 8.36, 0)) == 0);  // its bounds reach over the corner
+}
+
+BOOST_AUTO_TEST_CASE(a_rounded_cube_is_as_deep_as_its_core_and_the_radius) {
+  const CheckedTool cube = box(Vector3d::Constant(0.5)).swept_by(0.25L);
+  const Quaterniond on_its_corner = Quaterniond::FromTwoVectors(Vector3d(-1, -1, -1), Vector3d(0, 0, -1));
+  for (const double depth : depths) {
+    BOOST_TEST(std::abs(depth_of(plane(), cube, shifted(1, 2, 0.75 - depth)) - depth) < 2e-16);
+    const CheckedPose tilted(Vector3d(1, -2, std::sqrt(0.75) + 0.25 - depth), on_its_corner);
+    BOOST_TEST(std::abs(depth_of(plane(), cube, tilted) - depth) < 5e-16);
+    // The object's corner in a face, and edge over edge.
+    const CheckedObject spike = triangle({0.1, 0.1, 0.75 - depth}, {1, 0.25, 3}, {-0.25, 1, 2});
+    BOOST_TEST(std::abs(depth_of(spike, cube, at_rest) - depth) < 5e-16);
+    const CheckedObject wall = triangle({-2, 0, 0}, {2, 0, 0}, {0, 0, -2});
+    const Quaterniond on_its_edge(Eigen::AngleAxisd(std::acos(0.0) / 2, Vector3d::UnitY()));
+    BOOST_TEST(std::abs(depth_of(wall, cube, {Vector3d(0.25, 0.25, std::sqrt(0.5) + 0.25 - depth), on_its_edge}) - depth) < 5e-16);
+  }
+  // Deeper than the radius, the core is in it.
+  BOOST_TEST(std::abs(depth_of(plane(), cube, shifted(0, 0, 0.25)) - 0.5) < 1e-16);
+}
+
 BOOST_AUTO_TEST_CASE(touching_is_silent) {
   const CheckedTool cube = box(Vector3d::Constant(0.5));
   BOOST_TEST(depth_of(plane(), cube, shifted(0, 0, 0.5)) == 0);

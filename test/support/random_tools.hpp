@@ -7,6 +7,7 @@
 #include "feeler/tool/box.hpp"
 #include "feeler/tool/convex_polytope.hpp"
 #include "feeler/tool/segment.hpp"
+#include "feeler/tool/sphere_swept.hpp"
 #include "support/random_geometry.hpp"
 #include "support/wide_distance.hpp"
 
@@ -28,6 +29,17 @@ inline feeler::ConvexPolytope<double> random_hull(std::mt19937& bits, int count)
   for (int i = 0; i < count; ++i) points.row(i) = random_direction(bits).cwiseProduct(radii).transpose();
   return feeler::ConvexPolytope<double>::hull_of(points);
 }
+
+/// A tool of any of these swept by a ball of 1 to 50 mm.
+template <class Core>
+feeler::SphereSwept<Core> swept(std::mt19937& bits, const Core& core) {
+  return {core, magnitude(bits, -3, -1.3)};
+}
+inline feeler::Sphere<double> random_sphere(std::mt19937& bits) {
+  return swept(bits, feeler::Point<double>(0.1 * random_vector(bits)));
+}
+inline feeler::Capsule<double> random_capsule(std::mt19937& bits) { return swept(bits, random_segment(bits)); }
+inline feeler::RoundedBox<double> random_rounded_box(std::mt19937& bits) { return swept(bits, random_box(bits)); }
 
 enum class Shape { ordinary, small, large, sliver, needle, segment, point };
 
@@ -59,9 +71,10 @@ inline feeler::test::WideTriangle wide(const Eigen::Matrix3d& corners) {
 /// frame.
 template <class Tool>
 Eigen::Matrix3d at_gap(const Tool& tool, const Eigen::Matrix3d& corners, double gap) {
-  const auto closest = feeler::test::closest_features(feeler::test::WideTool(tool), wide(corners));
+  const feeler::test::WideTool wide_tool(tool);
+  const auto closest = feeler::test::closest_features(wide_tool, wide(corners));
   const Vector normal = ((closest.on_first - closest.on_second) / closest.distance).cast<double>();
-  return corners.colwise() + normal * (double(closest.distance) - gap);
+  return corners.colwise() + normal * (double(closest.distance - wide_tool.radius) - gap);
 }
 
 /// A triangle `gap` away from the tool, to rounding; in the tool frame.

@@ -17,14 +17,16 @@ namespace feeler::test {
 /// Triangle or sliver or point, a corner an element.
 using WideTriangle = std::array<WideVector, 3>;
 
-/// The features of a tool at some pose.
+/// The features of a tool at some pose; of a swept one those of its core, and the radius.
 struct WideTool {
   std::vector<WideVector> vertices;
   std::vector<std::array<int, 2>> edges;
   std::vector<std::vector<int>> faces;
+  WideReal radius = 0;
 
   template <class Tool>
   explicit WideTool(const Tool& tool) {
+    if constexpr (requires { tool.swept_radius(); }) radius = WideReal(tool.swept_radius());
     for (int i = 0; i < tool.vertex_count(); ++i)
       vertices.push_back(WideVector(tool.vertex(i).template cast<WideReal>()));
     for (int i = 0; i < tool.edge_count(); ++i) edges.push_back({tool.edge(i).start, tool.edge(i).end});
@@ -40,65 +42,16 @@ struct WideTool {
     return result;
   }
 
-  /// min n·x − max n·y.
+  /// min n·x − max n·y for a unit normal.
   WideReal separation_along(const WideVector& normal, const WideTriangle& triangle) const {
     WideReal low = std::numeric_limits<WideReal>::infinity(), high = -low;
     for (const WideVector& v : vertices) low = std::min(low, normal.dot(v));
     for (const WideVector& y : triangle) high = std::max(high, normal.dot(y));
-    return low - high;
+    return low - high - radius;
   }
 };
 
-/// A pair of points, one of either shape.
-struct WidePair {
-  WideReal distance = std::numeric_limits<WideReal>::infinity();
-  WideVector on_first = WideVector::Zero(), on_second = WideVector::Zero();
-
-  void take(const WideVector& first, const WideVector& second) {
-    const WideReal d = (first - second).norm();
-    if (d < distance) distance = d, on_first = first, on_second = second;
-  }
-};
-
-inline WideVector closest_on_wide_segment(const WideVector& point, const WideVector& a, const WideVector& b) {
-  const WideReal length = (b - a).squaredNorm();
-  if (!(length > 0)) return a;
-  return a + std::clamp((point - a).dot(b - a) / length, WideReal(0), WideReal(1)) * (b - a);
-}
-
-/// By the edges, and, where the foot of the perpendicular is inside all of them, by the plane.
-inline WideVector closest_on_wide_triangle(const WideVector& point, const WideVector& a, const WideVector& b,
-                                           const WideVector& c) {
-  WidePair best;
-  best.take(point, closest_on_wide_segment(point, a, b));
-  best.take(point, closest_on_wide_segment(point, b, c));
-  best.take(point, closest_on_wide_segment(point, c, a));
-  const WideVector normal = detail::normal_of(b - a, c - a);
-  if (normal.isZero(0)) return best.on_second;
-  const WideVector foot = point - normal.dot(point - a) * normal;
-  const auto side = [&](const WideVector& start, const WideVector& end) {
-    return (end - start).cross(foot - start).dot(normal);
-  };
-  if (side(a, b) > 0 && side(b, c) > 0 && side(c, a) > 0) best.take(point, foot);
-  return best.on_second;
-}
-
-inline void take_segments(const WideVector& a, const WideVector& b, const WideVector& c, const WideVector& d,
-                          WidePair& best) {
-  best.take(a, closest_on_wide_segment(a, c, d));
-  best.take(b, closest_on_wide_segment(b, c, d));
-  best.take(closest_on_wide_segment(c, a, b), c);
-  best.take(closest_on_wide_segment(d, a, b), d);
-  const WideVector normal = detail::normal_of(b - a, d - c);
-  if (normal.isZero(0)) return;
-  // Where the lines cross as seen along their common normal.
-  const WideVector u = b - a, v = d - c, w = c - a;
-  const WideReal area = u.cross(v).dot(normal);
-  const WideReal s = w.cross(v).dot(normal) / area, t = w.cross(u).dot(normal) / area;
-  if (s > 0 && s < 1 && t > 0 && t < 1) best.take(a + s * u, c + t * v);
-}
-
-/// Closest points of shapes that are apart; for shapes that overlap the answer is that of their surfaces.
+/// Closest points of shapes that are apart, of a swept tool those of its core; for shapes that overlap the answer is that of their surfaces.
 inline WidePair closest_features(const WideTool& tool, const WideTriangle& triangle) {
   WidePair best;
   const auto vertex = [&](int i) -> const WideVector& { return tool.vertices[std::size_t(i)]; };
@@ -114,7 +67,7 @@ inline WidePair closest_features(const WideTool& tool, const WideTriangle& trian
   return best;
 }
 
-/// Whether the shapes have a point in common: an edge of one pierces the other, or one is inside the other.
+/// Whether the shapes, of a swept tool its core, have a point in common: an edge of one pierces the other, or one is inside the other.
 inline bool intersect(const WideTool& tool, const WideTriangle& triangle) {
   const auto pierces = [](const WideVector& p, const WideVector& q, const WideVector& a, const WideVector& b,
                           const WideVector& c) {
