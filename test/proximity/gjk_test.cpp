@@ -99,6 +99,19 @@ BOOST_AUTO_TEST_CASE(distance_of_a_segment_is_that_of_brute_force_from_any_start
 BOOST_AUTO_TEST_CASE(distance_of_a_box_is_that_of_brute_force_from_any_start) {
   check_worst(check_random_pairs(2, 4000, random_box));
 }
+
+BOOST_AUTO_TEST_CASE(closest_points_of_a_swept_tool_are_those_of_its_core_and_the_distance_is_less_by_the_radius) {
+  std::mt19937 bits(7);
+  for (int i = 0; i < 500; ++i) {
+    const auto tool = random_rounded_box(bits);
+    const Eigen::Matrix3d corners = random_triangle(bits, random_shape(bits)).colwise() + 0.3 * random_vector(bits);
+    const auto core = feeler::gjk(tool.core(), corners, {}, touching), found = feeler::gjk(tool, corners, {}, touching);
+    BOOST_TEST(found.distance == core.distance - tool.swept_radius());
+    BOOST_TEST(found.normal == core.normal);
+    BOOST_TEST(found.tool_point == core.tool_point);
+    BOOST_TEST(found.is_touching == core.is_touching);
+  }
+}
 BOOST_AUTO_TEST_CASE(distance_of_a_hull_is_that_of_brute_force_from_any_start) {
   check_worst(
       check_random_pairs(3, 2000, [](std::mt19937& bits) { return random_hull(bits, 4 + below(bits, 28)); }));

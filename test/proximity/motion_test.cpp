@@ -70,13 +70,15 @@ BOOST_AUTO_TEST_CASE(no_tool_point_goes_farther_than_the_length_of_the_motion) {
   }
 }
 
-BOOST_AUTO_TEST_CASE(no_point_strays_from_its_chord_by_more_than_the_sagitta) {
-  constexpr unsigned seed = 3;
+namespace {
+/// @param used  least part of the bound that some motion uses: no idle bound
+template <class MakeTool>
+void check_sagittas(unsigned seed, const MakeTool& make_tool, WideReal used) {
   BOOST_TEST_MESSAGE("seed " << seed);
   std::mt19937 bits(seed);
   WideReal most_used_by_tool = 0, most_used_by_object = 0;
   for (int i = 0; i < 300; ++i) {
-    const RandomMotion<feeler::Box<double>> random(bits, random_box(bits));
+    const RandomMotion<decltype(make_tool(bits))> random(bits, make_tool(bits));
     const auto moving = random.moving();
     const auto wide_motion = random.wide();
     const double from = i % 2 == 0 ? 0 : fraction(bits) / 2, to = i % 2 == 0 ? 1 : from + fraction(bits) / 2;
@@ -121,9 +123,31 @@ BOOST_AUTO_TEST_CASE(no_point_strays_from_its_chord_by_more_than_the_sagitta) {
     }
   }
   BOOST_TEST_MESSAGE("used of the sagitta: tool " << most_used_by_tool << ", object " << most_used_by_object);
-  BOOST_TEST(most_used_by_tool > 0.5L);  // no idle bound
+  BOOST_TEST(most_used_by_tool > used);
   BOOST_TEST(most_used_by_object > 0.2L);
 }
+}  // namespace
+
+BOOST_AUTO_TEST_CASE(no_point_strays_from_its_chord_by_more_than_the_sagitta) {
+  check_sagittas(3, random_box, 0.5L);
+  check_sagittas(7, random_segment, 0.7L);
+  check_sagittas(8, random_sphere, 0.7L);
+}
+
+BOOST_AUTO_TEST_CASE(the_lowest_height_of_a_swept_tool_is_that_of_its_core_less_the_radius) {
+  std::mt19937 bits(9);
+  for (int i = 0; i < 300; ++i) {
+    const auto tool = random_rounded_box(bits);
+    const RandomMotion random(bits, tool);
+    const auto moving = random.moving();
+    const auto frame = moving.frame_at(fraction(bits));
+    const Vector normal = random_direction(bits);
+    const feeler::MovingTool<feeler::Box<double>> core_moving(tool.core(), random.reference, random.radius, random.pose, random.motion);
+    BOOST_TEST(moving.lowest(normal, frame) == core_moving.lowest(normal, frame) - tool.swept_radius());
+    BOOST_TEST(moving.sagitta(normal, 1) == core_moving.sagitta(normal, 1));
+  }
+}
+
 
 BOOST_AUTO_TEST_CASE(first_root_is_where_a_dense_sample_of_the_slack_first_falls_below_zero) {
   constexpr unsigned seed = 4;

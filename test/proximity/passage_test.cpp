@@ -60,7 +60,7 @@ struct Scene {
     for (int i = 0; i <= samples; ++i) {
       const WideTool here = relative().tool_at(tool, WideReal(i) / WideReal(samples));
       if (feeler::test::intersect(here, triangle())) return false;
-      if (!(feeler::test::closest_features(here, triangle()).distance > clearance)) return false;
+      if (!(feeler::test::closest_features(here, triangle()).distance > tool.radius + clearance)) return false;
     }
     return true;
   }
@@ -156,7 +156,8 @@ void check_kind(unsigned seed, int count, Kind kind, const MakeTool& make_tool) 
                              << tally.certified / count << " certified on average, deepest "
                              << tally.deepest);
   BOOST_TEST(tally.free > count / 50);
-  BOOST_TEST(tally.blocked > count / 50);
+  // Along the face nothing is in the way of a tool that meets it; a sharp one at no distance rounding may stop.
+  if (!feeler::SweptTool<decltype(make_tool(bits))> || kind != Kind::along_the_face) BOOST_TEST(tally.blocked > count / 50);
 }
 
 const auto make_hull = [](std::mt19937& bits) { return random_hull(bits, 4 + below(bits, 12)); };
@@ -172,6 +173,34 @@ BOOST_AUTO_TEST_CASE(no_sample_of_a_segment_on_a_certified_way_is_deeper_than_th
 }
 BOOST_AUTO_TEST_CASE(no_sample_of_a_hull_on_a_certified_way_is_deeper_than_the_allowance) {
   for (const Kind kind : kinds) check_kind(30 + unsigned(kind), 150, kind, make_hull);
+}
+
+BOOST_AUTO_TEST_CASE(no_sample_of_a_round_tool_on_a_certified_way_is_deeper_than_the_allowance) {
+  for (const Kind kind : kinds) {
+    check_kind(50 + unsigned(kind), 700, kind, random_sphere);
+    check_kind(60 + unsigned(kind), 700, kind, random_capsule);
+    check_kind(70 + unsigned(kind), 200, kind, random_rounded_box);
+  }
+}
+
+BOOST_AUTO_TEST_CASE(a_sphere_that_spins_about_its_centre_and_a_capsule_that_spins_about_its_axis_pass_at_no_cost) {
+  const Clearance<double> clearance;
+  Eigen::Matrix3d corners;
+  corners << -9, 9, 0.1, -9, -9, 9, 0, 0, 0;
+  const auto check = [&](const auto& tool, double height, const Vector& spin) {
+    const feeler::Pose<double> pose{Vector(0, 0, height), feeler::Quaternion<double>::Identity()};
+    const feeler::MovingTool<std::remove_cvref_t<decltype(tool)>> moving(tool, Vector::Zero(), feeler::radius_about(tool, Vector::Zero()),
+                                                                        pose, {Vector(0.01, 0, 0), spin});
+    int work = 0;
+    const PassedTriangle<double> triangle{corners.colwise() - pose.translation, Vector::UnitZ(), {}, true};
+    BOOST_TEST(!pass(moving, triangle, moving.frame_at(0), moving.frame_at(1), clearance, work).is_blocked);
+    BOOST_TEST(work == 0);
+  };
+  for (const double gap : {0.0, 1e-9, 1e-6}) {
+    check(feeler::Sphere<double>(0.01), 0.01 + gap, Vector(1, -2, 0.5));
+    check(feeler::Capsule<double>({{-0.02, 0, 0}, {0.03, 0, 0}}, 0.01), 0.01 + gap, Vector(3, 0, 0));
+    check(feeler::Segment<double>({-0.02, 0, 0}, {0.03, 0, 0}), gap, Vector(3, 0, 0));
+  }
 }
 
 BOOST_AUTO_TEST_CASE(a_motion_with_clearance_is_free) {
@@ -233,18 +262,19 @@ BOOST_AUTO_TEST_CASE(an_overlap_may_stay_but_not_grow) {
   }
 }
 
-BOOST_AUTO_TEST_CASE(a_plane_that_turns_holds_only_where_the_samples_are_apart) {
-  constexpr unsigned seed = 41;
+namespace {
+template <class MakeTool>
+void check_turning_planes(unsigned seed, int count, const MakeTool& make_tool) {
   BOOST_TEST_MESSAGE("seed " << seed);
   std::mt19937 bits(seed);
   int held = 0, meeting = 0;
-  for (int i = 0; i < 6000; ++i) {
-    const auto scene = random_scene(bits, random_box(bits), kinds[std::size_t(below(bits, 5))]);
+  for (int i = 0; i < count; ++i) {
+    const auto scene = random_scene(bits, make_tool(bits), kinds[std::size_t(below(bits, 5))]);
     const auto moving = scene.random.moving();
     const auto start = moving.frame_at(0), end = moving.frame_at(1);
     const auto first = feeler::separation(scene.random.tool, moving.in_tool(scene.corners, start), {}, 1e-8);
     const auto last = feeler::separation(scene.random.tool, moving.in_tool(scene.corners, end), {}, 1e-8);
-    const bool holds = feeler::detail::turning_plane_holds<feeler::Box<double>>(
+    const bool holds = feeler::detail::turning_plane_holds<decltype(make_tool(bits))>(
         moving, scene.corners, {start.rotation * first.normal, first.distance}, start,
         {end.rotation * last.normal, last.distance}, end, 0.0);
     const WideReal depth = scene.depth(1, 60, 1e-15L);
@@ -253,8 +283,35 @@ BOOST_AUTO_TEST_CASE(a_plane_that_turns_holds_only_where_the_samples_are_apart) 
     BOOST_TEST((!holds || depth <= 1e-15L));
   }
   BOOST_TEST_MESSAGE(held << " held, " << meeting << " met");
-  BOOST_TEST(held > 1000);
-  BOOST_TEST(meeting > 500);
+  BOOST_TEST(held > count / 6);
+  BOOST_TEST(meeting > count / 12);
+}
+}  // namespace
+
+BOOST_AUTO_TEST_CASE(a_plane_that_turns_holds_only_where_the_samples_are_apart) {
+  check_turning_planes(41, 6000, random_box);
+  check_turning_planes(42, 6000, random_sphere);
+  check_turning_planes(43, 4000, random_capsule);
+}
+
+BOOST_AUTO_TEST_CASE(a_plane_that_turns_follows_a_sphere_that_rolls_over_an_edge_where_no_fixed_plane_does) {
+  // About a corner: the centre goes from one side to the other on a chord, which dips by r (1 − cos α) = 0.32 um, and a little more room.
+  const double radius = 0.01, half_angle = 8e-3;
+  const feeler::Sphere<double> ball(radius);
+  Eigen::Matrix3d corners;
+  corners << 0, -0.01, 0.01, 0, 0, 0, 0, -0.2, -0.2;
+  const auto check = [&](double room) {
+    const double distance = radius * (1 + (1 - std::cos(half_angle))) + room;
+    const Vector first_normal(-std::sin(half_angle), 0, std::cos(half_angle)), last_normal(std::sin(half_angle), 0, std::cos(half_angle));
+    const Vector from = distance * first_normal, to = distance * last_normal;
+    const feeler::MovingTool<feeler::Sphere<double>> moving(ball, Vector::Zero(), 0, {from, feeler::Quaternion<double>::Identity()},
+                                                            {to - from, Vector::Zero()});
+    const auto start = moving.frame_at(0), end = moving.frame_at(1);
+    const Eigen::Matrix3d seen = corners.colwise() - from;
+    return feeler::detail::turning_plane_holds(moving, seen, {first_normal, distance - radius}, start, {last_normal, distance - radius}, end, 0.0);
+  };
+  BOOST_TEST(check(1e-8));
+  BOOST_TEST(!check(-1e-8));
 }
 
 BOOST_AUTO_TEST_CASE(a_plane_that_turns_follows_edges_that_roll_where_no_fixed_plane_does) {

@@ -57,6 +57,13 @@ BOOST_AUTO_TEST_CASE(depth_of_a_hull_is_that_of_the_separating_axis_theorem_in_l
   check_depth(2, 400, [](std::mt19937& bits) { return random_hull(bits, 4 + below(bits, 20)); });
 }
 
+BOOST_AUTO_TEST_CASE(depth_of_a_round_tool_is_that_of_all_pairs_of_features_of_its_core_in_long_double) {
+  check_depth(3, 1000, [](std::mt19937& bits) { return feeler::Sphere<double>(0.1 * random_vector(bits), magnitude(bits, -1.6, -0.9)); });
+  check_depth(4, 1000, random_capsule);
+  check_depth(5, 500, random_rounded_box);
+  check_depth(6, 200, [](std::mt19937& bits) { return swept(bits, random_hull(bits, 4 + below(bits, 20))); });
+}
+
 BOOST_AUTO_TEST_CASE(a_box_sunk_in_a_floor_is_as_deep_as_it_sank) {
   const feeler::Box<double> box(Vector(0.03, 0.02, 0.01));
   for (const double depth : {0.0, 1e-9, 1e-6, 1e-3}) {

@@ -64,6 +64,7 @@ BOOST_AUTO_TEST_CASE(a_swept_tool_is_its_core_and_a_radius_in_every_scalar) {
   BOOST_TEST(box.vertex_count() == 8);
   BOOST_TEST((box.vertex(box.support({1, -1, 1})) == Vector(1, -2, 3)));
   BOOST_TEST((Sphere<double>(Vector(1, 2, 3), 0.5).vertex(0) == Vector(1, 2, 3)));
+  BOOST_TEST((Sphere<double>({1, 2, 3}, 0.5).vertex(0) == Vector(1, 2, 3)));
   BOOST_TEST((Sphere<double>(0.5).vertex(0) == Vector(0, 0, 0)));
 }
 

@@ -8,6 +8,7 @@
 #include "feeler/core/scalar.hpp"
 #include "feeler/proximity/closest_on_simplex.hpp"
 #include "feeler/tool/convex_tool.hpp"
+#include "feeler/tool/swept_tool.hpp"
 
 namespace feeler {
 
@@ -18,7 +19,7 @@ struct WitnessFeatures {
   std::array<short, 3> corners{};
 };
 
-/// Result of `gjk`, in the tool frame.
+/// Result of `gjk`, in the tool frame. Of a swept tool the distance is that of its surface, all else is its core's.
 template <class Scalar>
 struct ClosestPoints {
   bool is_touching = false;  ///< the shapes touch or overlap to rounding: the normal means nothing
@@ -114,6 +115,17 @@ ClosestPoints<typename Tool::Scalar> gjk(const Tool& tool, const Matrix3<typenam
     result.triangle_point += simplex.weights[i] * triangle.col(simplex.corners[i]);
   }
   return result;
+}
+
+/// Closest points of the core of a swept tool and a triangle, and the distance of its surface: less by the radius, and negative where the ball
+/// overlaps the triangle. As long as the core does not touch, no direction is in doubt.
+template <SweptTool Tool>
+ClosestPoints<typename Tool::Scalar> gjk(const Tool& tool, const Matrix3<typename Tool::Scalar>& triangle,
+                                         const WitnessFeatures& warm,
+                                         typename Tool::Scalar touching_distance) noexcept {
+  auto closest = gjk(tool.core(), triangle, warm, touching_distance);
+  closest.distance -= tool.swept_radius();
+  return closest;
 }
 
 }  // namespace feeler

@@ -8,10 +8,12 @@
 #include "feeler/spatial/pose.hpp"
 #include "feeler/spatial/twist.hpp"
 #include "feeler/tool/convex_tool.hpp"
+#include "feeler/tool/swept_tool.hpp"
+#include "feeler/tool/symmetry.hpp"
 
 namespace feeler {
 
-/// Largest distance of a tool point from a point of the tool frame [m].
+/// Largest distance of a point of the tool, or of its core, from a point of the tool frame [m]: turns do not move the ball that sweeps a core.
 template <ConvexTool Tool>
 typename Tool::Scalar radius_about(const Tool& tool, const Vector3<typename Tool::Scalar>& point) noexcept {
   using std::sqrt;
@@ -45,14 +47,14 @@ class MovingTool {
   MovingTool(const Tool& tool, const Vector& reference, Scalar radius, const Pose<Scalar>& pose,
              const Twist<Scalar>& motion) noexcept
       : tool_(tool), reference_(reference), radius_(radius), pose_(pose), motion_(motion),
-        angle_(motion.angular.norm()), distance_(motion.linear.norm()) {}
+        angle_(motion.angular.norm()), distance_(motion.linear.norm()), turning_(longest_turn()) {}
 
   const Tool& tool() const noexcept { return tool_; }
   const Vector& origin() const noexcept { return pose_.translation; }
   const Twist<Scalar>& motion() const noexcept { return motion_; }
   Scalar radius() const noexcept { return radius_; }
-  /// Bound on the path of every tool point over the whole motion [m].
-  Scalar length() const noexcept { return distance_ + radius_ * angle_; }
+  /// Bound on the path of every point of the tool, or of its core, over the whole motion [m].
+  Scalar length() const noexcept { return distance_ + turning_; }
 
   Pose<Scalar> pose_at(Scalar time) const noexcept { return moved(pose_, motion_ * time); }
   Frame frame_at(Scalar time) const noexcept {
@@ -69,9 +71,9 @@ class MovingTool {
 
   /// Least height of the tool along a world normal: min n·x over its points x, relative to `origin()` [m].
   Scalar lowest(const Vector& normal, const Frame& frame) const noexcept {
-    return lowest_in_tool(frame.rotation.transpose() * normal) + normal.dot(frame.shift);
+    return lowest_in_tool(frame.rotation.transpose() * normal) + normal.dot(frame.shift) - swept_radius(tool_);
   }
-  /// Least height of the tool above its reference point along a normal in the tool frame [m].
+  /// Least height of the tool, or of its core, above its reference point along any vector in the tool frame [m].
   Scalar lowest_in_tool(const Vector& normal_tool) const noexcept {
     const int vertex = tool_.support(Vector(-normal_tool));
     return normal_tool.dot(tool_.vertex(vertex) - reference_);
@@ -79,9 +81,10 @@ class MovingTool {
 
   /// Bound on how far a tool point strays from its chord along a fixed world normal over a part of the motion [m].
   ///
-  /// n·Exp(tw)r has second derivative (n×w)·(w×r), of size at most |w×n| θ ρ; a function strays from its chord by an eighth of that.
+  /// n·Exp(tw)r has second derivative (n×w)·(w×r), of size at most |w×n| θ ρ; a function strays from its chord by an eighth of that. Of a
+  /// tool that is symmetric |w×r| is known: its spin about its own axis or centre moves nothing.
   Scalar sagitta(const Vector& normal, Scalar duration) const noexcept {
-    return duration * duration * motion_.angular.cross(normal).norm() * angle_ * radius_ / 8;
+    return duration * duration * motion_.angular.cross(normal).norm() * turning_ / 8;
   }
 
   /// The same for an object point that strays from its chord as seen along a normal fixed to the tool.
@@ -94,6 +97,18 @@ class MovingTool {
   }
 
  private:
+  /// max |w×r| over the tool's points [m], which does not change on the way; or a bound, θρ.
+  Scalar longest_turn() const noexcept {
+    if constexpr (symmetry_of<Tool> == Symmetry::none) {
+      return angle_ * radius_;
+    } else {
+      const auto turn_of = [this](int i) {
+        return motion_.angular.cross(pose_.rotation * Vector(tool_.vertex(i) - reference_)).norm();
+      };
+      return symmetry_of<Tool> == Symmetry::about_axis ? std::max(turn_of(0), turn_of(1)) : turn_of(0);
+    }
+  }
+
   const Tool& tool_;
   Vector reference_;
   Scalar radius_;
@@ -101,6 +116,7 @@ class MovingTool {
   Twist<Scalar> motion_;
   Scalar angle_;
   Scalar distance_;
+  Scalar turning_;
 };
 
 /// First u in [0, 1] at which a + u (b − a) − 4g u (1 − u) falls below zero; 1 when it never does.

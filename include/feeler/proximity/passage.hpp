@@ -105,7 +105,9 @@ bool turning_plane_holds(const MovingTool<Tool>& moving, const Matrix3<typename 
   if (!(b0 >= Scalar(0)) || !(b2 >= Scalar(0))) return false;
   const Vector3<Scalar> across = end.rotation.transpose() * first.normal + start.rotation.transpose() * last.normal;
   const Scalar lowest = moving.lowest_in_tool(across) + first.normal.dot(end.shift) + last.normal.dot(start.shift);
-  const Scalar b1 = (lowest - highest<Scalar>(corners, first.normal + last.normal)) / 2 - required;
+  Scalar b1 = (lowest - highest<Scalar>(corners, first.normal + last.normal)) / 2 - required;
+  // For a ball of radius r, r|n(t)| is subtracted, and |n(t)| ≤ 1 − (1 − n₀·n₁) t (1 − t), whose coefficients are 1, ½(1 + n₀·n₁) and 1.
+  if constexpr (SweptTool<Tool>) b1 -= swept_radius(moving.tool()) * (Scalar(1) + first.normal.dot(last.normal)) / 2;
   const Scalar duration = end.time - start.time;
   const Scalar sagitta = std::max(moving.sagitta(first.normal, duration), moving.sagitta(last.normal, duration));
   return b1 - 2 * sagitta >= -sqrt(b0 * b2);
@@ -136,8 +138,9 @@ Passage<typename Tool::Scalar> pass(const MovingTool<Tool>& moving, const Passed
     auto closest = gjk(moving.tool(), in_tool, warm, clearance.touching);
     warm = closest.features;
     if (closest.is_touching) {
-      if (!touches) return Plane{Vector3<Scalar>::Zero(), -std::numeric_limits<Scalar>::infinity()};
-      closest = separation_of_touching(moving.tool(), in_tool, closest);
+      // The core of a swept tool touches nothing before the tool is in it by the radius.
+      if (SweptTool<Tool> || !touches) return Plane{Vector3<Scalar>::Zero(), -std::numeric_limits<Scalar>::infinity()};
+      if constexpr (!SweptTool<Tool>) closest = separation_of_touching(moving.tool(), in_tool, closest);
     }
     return Plane{frame.rotation * closest.normal, closest.distance};
   };

@@ -8,6 +8,7 @@
 
 #include "feeler/core/scalar.hpp"
 #include "feeler/tool/convex_tool.hpp"
+#include "feeler/tool/swept_tool.hpp"
 
 namespace feeler {
 
@@ -24,6 +25,12 @@ typename Tool::Scalar separation_along(const Tool& tool, const Matrix3<typename 
                                        const Vector3<typename Tool::Scalar>& normal) noexcept {
   const int vertex = tool.support(Vector3<typename Tool::Scalar>(-normal));
   return normal.dot(tool.vertex(vertex)) - (normal.transpose() * triangle).maxCoeff();
+}
+
+template <SweptTool Tool>
+typename Tool::Scalar separation_along(const Tool& tool, const Matrix3<typename Tool::Scalar>& triangle,
+                                       const Vector3<typename Tool::Scalar>& unit_normal) noexcept {
+  return separation_along(tool.core(), triangle, unit_normal) - tool.swept_radius();
 }
 
 /// Maximises the separation over the face normals of the Minkowski difference: the triangle's normal, the tool's face normals and the

@@ -5,6 +5,7 @@
 #include "feeler/proximity/gjk.hpp"
 #include "feeler/proximity/separating_axes.hpp"
 #include "feeler/tool/convex_tool.hpp"
+#include "feeler/tool/swept_tool.hpp"
 
 namespace feeler {
 
@@ -33,6 +34,14 @@ ClosestPoints<typename Tool::Scalar> separation_of_touching(const Tool& tool, co
   closest.features.size = 0;
   closest.tool_point = tool.vertex(tool.support(Vector3<Scalar>(-axis.normal)));
   closest.triangle_point = closest.tool_point - axis.distance * axis.normal;
+  return closest;
+}
+
+template <SweptTool Tool>
+ClosestPoints<typename Tool::Scalar> separation_of_touching(const Tool& tool, const Matrix3<typename Tool::Scalar>& triangle,
+                                                            ClosestPoints<typename Tool::Scalar> closest) noexcept {
+  closest = separation_of_touching(tool.core(), triangle, closest);
+  closest.distance -= tool.swept_radius();
   return closest;
 }
 

@@ -17,7 +17,7 @@ class Point {
   /// The origin of the tool frame.
   Point() = default;
   /// Refuses a position that is not finite.
-  Point(const Vector3<Scalar>& position) : position_(position) {
+  explicit Point(const Vector3<Scalar>& position) : position_(position) {
     if (!position.allFinite()) refuse("Point: the position has a NaN or an infinity; give a finite one");
   }
 

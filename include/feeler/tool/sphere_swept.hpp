@@ -39,6 +39,10 @@ class SphereSwept {
   explicit SphereSwept(Scalar radius)
     requires(symmetry_of<Core> == Symmetry::about_point && std::default_initializable<Core>)
       : SphereSwept(Core(), radius) {}
+  /// A sphere about a point of the tool frame [m].
+  SphereSwept(const Vector3<Scalar>& centre, Scalar radius)
+    requires(symmetry_of<Core> == Symmetry::about_point && std::constructible_from<Core, const Vector3<Scalar>&>)
+      : SphereSwept(Core(centre), radius) {}
 
   const Core& core() const noexcept { return core_; }
   Scalar swept_radius() const noexcept { return radius_; }
@@ -66,7 +70,7 @@ class SphereSwept {
   Scalar radius_;
 };
 
-/// `Sphere<double>(radius)` about the origin, or `Sphere<double>(centre, radius)`.
+/// `Sphere<double>(radius)` about the origin of the tool frame, or `Sphere<double>(centre, radius)`.
 template <RealScalar Scalar>
 using Sphere = SphereSwept<Point<Scalar>>;
 /// `Capsule<double>({start, end}, radius)`: a cylinder with half a sphere at each end.
