@@ -8,6 +8,7 @@
 #include <limits>
 
 #include "feeler/contact/contact_row.hpp"
+#include "feeler/contact/swept_contact_row.hpp"
 #include "feeler/core/feature_incidence.hpp"
 #include "feeler/core/fixed_vector.hpp"
 #include "feeler/core/scalar.hpp"
@@ -19,8 +20,8 @@
 namespace feeler {
 
 /// The rows of one pair.
-template <class Scalar>
-using PatchRows = FixedVector<ContactRow<Scalar>, 12>;
+template <class Scalar, class Row = ContactRow<Scalar>>
+using PatchRows = FixedVector<Row, 12>;
 
 /// Finds the rows of a pair.
 ///
@@ -33,13 +34,17 @@ using PatchRows = FixedVector<ContactRow<Scalar>, 12>;
 /// above the planes of both sides, and each will hold it: there the plane of the face takes the ghost's place, and the row says that it is
 /// assumed.
 ///
+/// Of a swept tool the features are those of its core, and each gap is less by the radius. Where the closest features are points or lines,
+/// their row knows how the normal turns about them.
+///
 /// All input in the tool frame. @cost O(vertices in the band), at most 16 of them, and the features at them
 template <ConvexTool Tool, class MeshScalar>
 class ContactPatch {
  public:
   using Scalar = typename Tool::Scalar;
   using Vector = Vector3<Scalar>;
-  using Row = ContactRow<Scalar>;
+  using Row = ContactRowOf<Tool>;
+  using Rows = PatchRows<Scalar, Row>;
 
   /// @param incidence        `incidence_of(tool)`
   /// @param world_from_tool  axes of the tool; rows come out in world axes
@@ -58,7 +63,7 @@ class ContactPatch {
 
   /// Rows of a triangle with the closest points given; false when it had none but a ghost and that was left out.
   bool find(int triangle, const Matrix3<Scalar>& corners, const ClosestPoints<Scalar>& closest, bool keep_ghost,
-            PatchRows<Scalar>& rows) noexcept {
+            Rows& rows) noexcept {
     rows.clear();
     triangle_ = triangle;
     corners_ = corners;
@@ -77,7 +82,11 @@ class ContactPatch {
       return !rows.empty();
     }
     if (rows.full()) rows.pop_back();
-    rows.push_back(row_of(FeaturePair::vertex_face, normal_, closest.tool_point, closest.distance));
+    if constexpr (SweptTool<Tool>) {
+      rows.push_back(row_of_closest(closest));
+    } else {
+      rows.push_back(row_of(FeaturePair::vertex_face, normal_, closest.tool_point, closest.distance));
+    }
     return true;
   }
 
@@ -122,12 +131,12 @@ class ContactPatch {
     }
   }
 
-  void add_vertices_on_face(PatchRows<Scalar>& rows) noexcept {
+  void add_vertices_on_face(Rows& rows) noexcept {
     if (!has_face_ || !faces_tool_) return;
     const Vector normal = side_ * face_normal_;
     for (const int near : near_) {
       const Vector vertex = tool_.vertex(near);
-      const Scalar gap = normal.dot(vertex - corners_.col(0));
+      const Scalar gap = on_surface(normal.dot(vertex - corners_.col(0)));
       if (std::abs(gap) > 2 * band_) continue;
       Scalar room = std::numeric_limits<Scalar>::infinity();
       for (int k = 0; k < 3; ++k) room = std::min(room, inward(corners_.col(k), corners_.col((k + 1) % 3), vertex, face_normal_));
@@ -136,12 +145,12 @@ class ContactPatch {
   }
 
   /// The triangle's own plane, where the lowest tool vertex is beside it, near, and every edge between them is a valley's.
-  void add_concave_face(const ClosestPoints<Scalar>& closest, PatchRows<Scalar>& rows) noexcept {
+  void add_concave_face(const ClosestPoints<Scalar>& closest, Rows& rows) noexcept {
     if (!has_face_ || rows.full() || closest.distance > 4 * band_) return;
     for (const Scalar side : {Scalar(1), Scalar(-1)}) {
       const Vector normal = side * face_normal_;
       const Vector vertex = tool_.vertex(tool_.support(Vector(-normal)));
-      const Scalar gap = normal.dot(vertex - corners_.col(0));
+      const Scalar gap = on_surface(normal.dot(vertex - corners_.col(0)));
       if (!(gap > Scalar(0)) || !is_across_valleys(vertex, normal)) continue;
       rows.push_back(row_of(FeaturePair::vertex_face, normal, vertex, gap));
       rows.back().is_assumed = true;
@@ -170,7 +179,7 @@ class ContactPatch {
     return true;
   }
 
-  void add_corners_on_faces(PatchRows<Scalar>& rows) noexcept {
+  void add_corners_on_faces(Rows& rows) noexcept {
     for (const int vertex : near_) {
       for (const int f : incidence_.vertex_faces(vertex)) {
         const auto all = incidence_.face_vertices(f);
@@ -180,13 +189,13 @@ class ContactPatch {
     }
   }
 
-  void add_corners_on_face(const ToolFace<Scalar>& face, PatchRows<Scalar>& rows) noexcept {
+  void add_corners_on_face(const ToolFace<Scalar>& face, Rows& rows) noexcept {
     const Vector outward = face.normal;
     if (-outward.dot(normal_) < least_cosine) return;
     const auto& loop = face.vertices;
     for (int k = 0; k < 3; ++k) {
       const Vector corner = corners_.col(k);
-      const Scalar gap = outward.dot(corner - tool_.vertex(loop[0]));
+      const Scalar gap = on_surface(outward.dot(corner - tool_.vertex(loop[0])));
       if (std::abs(gap) > 2 * band_) continue;
       Scalar room = std::numeric_limits<Scalar>::infinity();
       for (std::size_t i = 0; i < loop.size(); ++i) {
@@ -204,7 +213,7 @@ class ContactPatch {
     Scalar length = Scalar(0);
   };
 
-  void add_edges(PatchRows<Scalar>& rows) noexcept {
+  void add_edges(Rows& rows) noexcept {
     FixedVector<ObjectEdge, 3> object_edges;
     for (int k = 0; k < 3; ++k) {
       // An edge inside a flat part of the surface touches nothing.
@@ -224,7 +233,7 @@ class ContactPatch {
     }
   }
 
-  void add_edge_pair(const Vector& tool_start, const Vector& tool, const ObjectEdge& object, PatchRows<Scalar>& rows) noexcept {
+  void add_edge_pair(const Vector& tool_start, const Vector& tool, const ObjectEdge& object, Rows& rows) noexcept {
     const Vector& u = object.direction;
     const Vector cross = tool.cross(u);
     const Scalar tool_squared = tool.squaredNorm(), cross_squared = cross.squaredNorm();
@@ -241,18 +250,19 @@ class ContactPatch {
     const Scalar part_of_tool = between.cross(u).dot(across) / cross_squared;
     if (!(along_object >= Scalar(0) && along_object <= object.length && part_of_tool >= Scalar(0) && part_of_tool <= Scalar(1))) return;
     const Vector normal = cross / (along_normal < Scalar(0) ? -std::sqrt(cross_squared) : std::sqrt(cross_squared));
-    const Scalar gap = normal.dot(between);
+    const Scalar gap = on_surface(normal.dot(between));
     if (std::abs(gap) > 2 * band_ || !is_clear_of_neighbour_across(object.number, normal)) return;
     const Scalar tool_length = std::sqrt(tool_squared);
     const Scalar room = std::min({along_object, object.length - along_object, part_of_tool * tool_length, (1 - part_of_tool) * tool_length});
     Row row = row_of(FeaturePair::edge_edge, normal, Vector(tool_start + part_of_tool * tool), gap, room);
     row.object_edge = world_from_tool_ * u;
     row.tool_edge = world_from_tool_ * tool / tool_length;
+    if constexpr (SweptTool<Tool>) set_core_distance(row);
     rows.push_back(row);
   }
 
   /// Edges in parallel touch along an interval; its ends hold the tool.
-  void add_parallel_edges(const Vector& tool_start, const Vector& tool, const ObjectEdge& edge, PatchRows<Scalar>& rows) noexcept {
+  void add_parallel_edges(const Vector& tool_start, const Vector& tool, const ObjectEdge& edge, Rows& rows) noexcept {
     const Vector &start = edge.start, &object = edge.span;
     const Scalar length_squared = tool.squaredNorm();
     const Scalar first = object.dot(tool) > Scalar(0) ? tool.dot(start - tool_start) : tool.dot(start + object - tool_start);
@@ -264,10 +274,18 @@ class ContactPatch {
       const Vector on_tool = tool_start + t * tool;
       const Scalar along = object.dot(on_tool - start) / object.squaredNorm();
       const Vector between = on_tool - start - along * object;
-      const Scalar gap = normal_.dot(between);
+      const Scalar height = normal_.dot(between);
       // Far apart across the normal they only look parallel: no contact there.
-      if (std::abs(gap) > 2 * band_ || (between - gap * normal_).norm() > std::abs(gap) + Scalar(1e-9)) continue;
-      rows.push_back(row_of(FeaturePair::vertex_face, normal_, on_tool, gap));
+      if (std::abs(on_surface(height)) > 2 * band_ || (between - height * normal_).norm() > std::abs(height) + Scalar(1e-9)) continue;
+      if constexpr (SweptTool<Tool>) {
+        const Scalar distance = between.norm();
+        Row row = row_of(FeaturePair::vertex_face, Vector(between / distance), on_tool, on_surface(distance));
+        row.object_edge = world_from_tool_ * object.normalized();
+        set_core_distance(row);
+        rows.push_back(row);
+      } else {
+        rows.push_back(row_of(FeaturePair::vertex_face, normal_, on_tool, height));
+      }
     }
   }
 
@@ -285,6 +303,57 @@ class ContactPatch {
     row.normal = world_from_tool_ * normal;
     row.arm = world_from_tool_ * (point - reference_);
     row.gap = gap;
+    return row;
+  }
+
+  /// The gap of the tool's surface where its features, of a swept tool those of its core, are so far away [m].
+  Scalar on_surface(Scalar distance) const noexcept {
+    if constexpr (SweptTool<Tool>) {
+      return distance - tool_.swept_radius();
+    } else {
+      return distance;
+    }
+  }
+
+  /// About a point or a line the normal of a swept tool turns with the tool; the row knows, and lasts until that is much.
+  void set_core_distance(Row& row) const noexcept
+    requires SweptTool<Tool>
+  {
+    row.core_distance = std::max(row.gap + tool_.swept_radius(), tool_.swept_radius() / 2);
+    row.room = std::max(row.room, row.core_distance / 20);
+  }
+
+  /// The row of the closest points of a core, with its curvature from the features that they lie on.
+  Row row_of_closest(const ClosestPoints<Scalar>& closest) const noexcept
+    requires SweptTool<Tool>
+  {
+    Row row = row_of(FeaturePair::vertex_face, normal_, closest.tool_point, closest.distance);
+    FixedVector<int, 3> vertices, corners;
+    const auto insert = [](FixedVector<int, 3>& list, int i) {
+      if (std::find(list.begin(), list.end(), i) == list.end()) list.push_back(i);
+    };
+    for (std::size_t i = 0; i < std::size_t(closest.features.size); ++i) {
+      insert(vertices, closest.features.tool_vertices[i]);
+      insert(corners, closest.features.corners[i]);
+    }
+    const Vector on_core = vertices.size() == 1 ? Vector(tool_.vertex(vertices[0])) : closest.tool_point;
+    row.arm = world_from_tool_ * (on_core - reference_);
+    // Beside the triangle by a hair: in a fit without clearance the least tilt of the normal would be a wedge.
+    if (has_face_ && faces_tool_ && vertices.size() < 3 && face_normal_.cross(normal_).squaredNorm() < Scalar(1e-10)) {
+      row.normal = world_from_tool_ * Vector(side_ * face_normal_);
+      row.gap = on_surface(side_ * face_normal_.dot(on_core - corners_.col(0)));
+      return row;
+    }
+    if (vertices.size() == 3) {  // a face of the core
+      row.kind = FeaturePair::face_vertex;
+      row.arm = world_from_tool_ * (closest.triangle_point - reference_);
+    } else if (!vertices.empty() && corners.size() < 3) {
+      if (vertices.size() == 2) row.tool_edge = world_from_tool_ * Vector(tool_.vertex(vertices[1]) - tool_.vertex(vertices[0])).normalized();
+      if (corners.size() == 2) row.object_edge = world_from_tool_ * Vector(corners_.col(corners[1]) - corners_.col(corners[0])).normalized();
+      // Lines in parallel are as near at one place as at another: one of the places stands for them.
+      if (row.tool_edge.cross(row.object_edge).squaredNorm() < Scalar(1e-6) && !row.object_edge.isZero(Scalar(0))) row.tool_edge.setZero();
+      set_core_distance(row);
+    }
     return row;
   }
 

@@ -46,20 +46,24 @@ struct ContactRow {
     return j;
   }
 
+  /// A(n, r) = ½(nrᵀ + rnᵀ) − (n·r)I with wᵀA w = n·w×(w×r): what a turn adds to the height of the arm's end.
+  Matrix3<Scalar> chord() const noexcept {
+    const Matrix3<Scalar> outer = normal * arm.transpose() / 2;
+    return outer + outer.transpose() - normal.dot(arm) * Matrix3<Scalar>::Identity();
+  }
+
   /// C: second derivative of the separation by the step.
   ///
-  /// A vertex on a face moves by Exp(w)r, so n·w×(w×r) = wᵀA w with A(n, r) = ½(nrᵀ + rnᵀ) − (n·r)I. A face on a vertex z sees it
+  /// A vertex on a face moves by Exp(w)r, so its part is A(n, r). A face on a vertex z sees it
   /// move by Exp(−w)(z − dp). Where edges u (object) and v (tool) cross, n ∝ v × u turns by δn = B w, and δn·δx is added.
   Matrix6<Scalar> curvature() const noexcept {
     Matrix6<Scalar> c = Matrix6<Scalar>::Zero();
-    const Matrix3<Scalar> outer = normal * arm.transpose() / 2;
-    const Matrix3<Scalar> chord = outer + outer.transpose() - normal.dot(arm) * Matrix3<Scalar>::Identity();
     auto linear_angular = c.template topRightCorner<3, 3>();
     auto angular = c.template bottomRightCorner<3, 3>();
     switch (kind) {
-      case FeaturePair::vertex_face: angular = chord; break;
+      case FeaturePair::vertex_face: angular = chord(); break;
       case FeaturePair::face_vertex:
-        angular = -chord;
+        angular = -chord();
         linear_angular = -cross_matrix(normal);
         break;
       case FeaturePair::edge_edge: {
@@ -71,7 +75,7 @@ struct ContactRow {
             oriented;
         const Matrix3<Scalar> carried = turn.transpose() * cross_matrix(arm);
         linear_angular = turn;
-        angular = chord - carried - carried.transpose();
+        angular = chord() - carried - carried.transpose();
         break;
       }
     }

@@ -1,0 +1,170 @@
+#include "feeler/contact/swept_contact_row.hpp"
+
+#include <boost/test/unit_test.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+
+#include "feeler/contact/contact_patch.hpp"
+#include "feeler/spatial/pose.hpp"
+#include "feeler/tool/sphere_swept.hpp"
+#include "support/random_tools.hpp"
+
+using feeler::SweptContactRow;
+using namespace feeler_test;
+
+namespace {
+
+using Real = long double;
+using Wide = Eigen::Matrix<Real, 3, 1>;
+using Wide6 = Eigen::Matrix<Real, 6, 1>;
+
+Wide turned(const Wide& w, const Wide& v) {
+  const Real angle = w.norm();
+  if (angle == 0) return v;
+  const Wide axis = w / angle;
+  return std::cos(angle) * v + std::sin(angle) * axis.cross(v) + (1 - std::cos(angle)) * axis.dot(v) * axis;
+}
+
+/// A point or a line of the core and a point or a line of the object, and the radius of the ball.
+struct Pair {
+  Wide on_tool, tool_edge, on_object, object_edge;  // directions are zero for points
+  Real radius;
+
+  /// Distance of the two after a step of the tool, less the radius: by the shortest vector across both directions.
+  Real separation(const Wide6& step) const {
+    const Wide w = step.tail<3>();
+    Wide between = step.head<3>() + turned(w, on_tool) - on_object;
+    const Wide v = turned(w, tool_edge), u = object_edge;
+    if (!v.isZero(0) && !u.isZero(0)) {
+      const Wide normal = v.cross(u).normalized();
+      return std::abs(normal.dot(between)) - radius;
+    }
+    const Wide along = v + u;
+    if (!along.isZero(0)) between -= along * (along.dot(between) / along.squaredNorm());
+    return between.norm() - radius;
+  }
+
+  /// Its row, with the arm anywhere along the edge's normal plane: at the closest points.
+  SweptContactRow<double> row() const {
+    SweptContactRow<double> result;
+    Wide x = on_tool, y = on_object;
+    const Wide &v = tool_edge, &u = object_edge;
+    if (!v.isZero(0) && !u.isZero(0)) {
+      const Real c = u.dot(v), s = 1 - c * c;
+      const Wide between = on_object - on_tool;
+      x += v * ((between.dot(v) - c * between.dot(u)) / s);
+      y += u * ((c * between.dot(v) - between.dot(u)) / s);
+    } else if (!v.isZero(0)) {
+      x += v * v.dot(on_object - on_tool);
+    } else if (!u.isZero(0)) {
+      y += u * u.dot(on_tool - on_object);
+    }
+    result.normal = (x - y).normalized().cast<double>();
+    result.arm = x.cast<double>();
+    result.tool_edge = v.cast<double>();
+    result.object_edge = u.cast<double>();
+    result.core_distance = double((x - y).norm());
+    result.gap = double((x - y).norm() - radius);
+    return result;
+  }
+};
+
+Pair random_pair(std::mt19937& bits, bool has_tool_edge, bool has_object_edge) {
+  const auto wide = [](const Vector& v) { return Wide(v.cast<Real>()); };
+  Pair pair;
+  do {
+    pair = {wide(random_vector(bits)), Wide::Zero(), wide(random_vector(bits)), Wide::Zero(), 0.3L};
+    if (has_tool_edge) pair.tool_edge = wide(random_direction(bits)).normalized();
+    if (has_object_edge) pair.object_edge = wide(random_direction(bits)).normalized();
+  } while (pair.separation(Wide6::Zero()) < -0.1L ||
+           (has_tool_edge && has_object_edge && pair.tool_edge.cross(pair.object_edge).norm() < 0.3L));
+  return pair;
+}
+
+}  // namespace
+
+BOOST_AUTO_TEST_SUITE(swept_contact_row)
+
+BOOST_AUTO_TEST_CASE(gradient_and_curvature_of_points_and_lines_are_derivatives_of_their_distance) {
+  constexpr unsigned seed = 1;
+  BOOST_TEST_MESSAGE("seed " << seed);
+  std::mt19937 bits(seed);
+  for (int kind = 0; kind < 4; ++kind) {
+    Real worst_gradient = 0, worst_curvature = 0;
+    for (int i = 0; i < 300; ++i) {
+      const Pair pair = random_pair(bits, (kind & 1) != 0, (kind & 2) != 0);
+      const SweptContactRow<double> row = pair.row();
+      const Real h = 1e-5L;
+      const auto gradient = row.gradient();
+      const auto curvature = row.curvature();
+      BOOST_TEST((curvature - curvature.transpose()).norm() < 1e-12);
+      for (int a = 0; a < 6; ++a) {
+        const Wide6 da = Wide6::Unit(a) * h;
+        worst_gradient = std::max(worst_gradient, std::abs((pair.separation(da) - pair.separation(-da)) / (2 * h) - Real(gradient[a])));
+        for (int b = 0; b < 6; ++b) {
+          const Wide6 db = Wide6::Unit(b) * h;
+          const Real second = (pair.separation(da + db) - pair.separation(da - db) - pair.separation(db - da) + pair.separation(-da - db)) / (4 * h * h);
+          worst_curvature = std::max(worst_curvature, std::abs(second - Real(curvature(a, b))));
+        }
+      }
+    }
+    BOOST_TEST_CONTEXT("tool edge " << (kind & 1) << ", object edge " << (kind & 2)) {
+      BOOST_TEST(worst_gradient < 1e-6L);
+      BOOST_TEST(worst_curvature < 1e-4L);  // of up to 1e2
+    }
+  }
+}
+
+BOOST_AUTO_TEST_CASE(a_face_is_not_bent_by_the_radius) {
+  SweptContactRow<double> row;
+  row.normal = Vector(1, 2, 3).normalized();
+  row.arm = Vector(0.1, -0.2, 0.3);
+  const feeler::ContactRow<double>& sharp = row;
+  BOOST_TEST((row.curvature() == sharp.curvature()));
+  static_assert(std::is_same_v<feeler::ContactRowOf<feeler::Box<double>>, feeler::ContactRow<double>>);
+}
+
+BOOST_AUTO_TEST_CASE(rows_of_a_round_tool_predict_its_separation_to_third_order) {
+  // Lone triangles: every feature is in its cone. The step is 1e-4 of the radius and of a radian.
+  constexpr unsigned seed = 2;
+  BOOST_TEST_MESSAGE("seed " << seed);
+  std::mt19937 bits(seed);
+  const auto check = [&](const auto& make_tool, int count) {
+    int kinds_seen[3] = {0, 0, 0};
+    double worst = 0;
+    for (int i = 0; i < count; ++i) {
+      const auto tool = make_tool(bits);
+      using Tool = std::remove_cvref_t<decltype(tool)>;
+      const double gap = 1e-6 * fraction(bits);
+      const Eigen::Matrix3d corners = triangle_near(tool, bits, Shape::ordinary, gap);
+      const feeler::Points<double> vertices = corners.transpose();
+      const feeler::TriangleMesh<double> mesh(vertices, feeler::Triangles{{0, 1, 2}});
+      const auto closest = feeler::gjk(tool, corners, {}, 1e-8);
+      feeler::ContactPatch<Tool, double> patch(tool, mesh, Eigen::Matrix3d::Identity(), Vector::Zero(), 1e-4, false);
+      typename feeler::ContactPatch<Tool, double>::Rows rows;
+      BOOST_TEST_REQUIRE(patch.find(0, corners, closest, true, rows));
+      const auto row = *std::min_element(rows.begin(), rows.end(), [](const auto& a, const auto& b) { return a.gap < b.gap; });
+      BOOST_TEST(std::abs(row.gap - gap) <= 1e-9);
+      ++kinds_seen[int(row.kind)];
+      const double size = 1e-4 * tool.swept_radius();
+      feeler::Vector6<double> step;
+      step << size * random_direction(bits), size * random_direction(bits);
+      const feeler::Pose<double> moved{step.head<3>(), feeler::exp_rotation<double>(step.tail<3>())};
+      const Eigen::Matrix3d seen = moved.rotation.toRotationMatrix().transpose() * (corners.colwise() - moved.translation);
+      const feeler::test::WideTool wide_tool(tool);
+      const double separation = double(feeler::test::closest_features(wide_tool, wide(seen)).distance - wide_tool.radius);
+      const double predicted = row.gap + row.gradient().dot(step) + step.dot(row.curvature() * step) / 2;
+      // Another feature may take over within the step: its curvature is unlike by as much as the radius allows.
+      worst = std::max(worst, std::abs(predicted - separation) / size);
+    }
+    BOOST_TEST_MESSAGE("vertex or edge " << kinds_seen[0] << ", face " << kinds_seen[1] << ", edges " << kinds_seen[2] << "; worst error per step " << worst);
+    BOOST_TEST(worst <= 1e-7);  // without the curvature of points and lines 5e-5
+  };
+  check(random_sphere, 500);
+  check(random_capsule, 500);
+  check(random_rounded_box, 500);
+}
+
+BOOST_AUTO_TEST_SUITE_END()
