@@ -20,7 +20,7 @@ struct Clearance {
 
   /// Separation required along a motion that starts `start` away: tight fits may halve it, an overlap may stay but not grow.
   Scalar required(Scalar start) const noexcept {
-    if (start >= 2 * kept) return kept;
+    if (start >= 2 * kept) return std::min(kept, start);  // kept may be an overlap itself
     if (start > allowance / 5) return start / 2;
     return std::clamp(start, -2 * allowance, -allowance);
   }

@@ -45,10 +45,13 @@ class ClosestFeaturesFollower {
 
   Status follow(const Scene& scene, const Pose<Scalar>& target, Tick<MeshScalar>& tick) noexcept {
     target_ = target;
+    turn_idly(scene, tick);
+    const int idle_legs = tick.path.size();
     working_set_.age(longest_idle, 4 * scene.margin(), 4 * scene.trust_radius(), goes_on_);
     if (!goes_on_) reset_limits(scene);
     goes_on_ = !advance(scene, tick);
-    adapt_budget(scene, tick);
+    adapt_budget(scene, tick, tick.path.size() > idle_legs);
+    turn_idly(scene, tick);
     return goes_on_ ? Status::unconverged : Status::converged;
   }
 
@@ -63,7 +66,12 @@ class ClosestFeaturesFollower {
       ActiveContact<MeshScalar> contact;
       contact.piece = row.piece;
       contact.triangle = row.triangle;
-      contact.point_world = (pose_.translation + row.arm).template cast<MeshScalar>();
+      Vector3<Scalar> point = pose_.translation + row.arm;
+      // Of a swept tool the arm ends on the core, but for a corner of the object on a face.
+      if constexpr (SweptTool<Piece>) {
+        if (row.kind != FeaturePair::face_vertex) point -= swept_radius(scene.piece(row.piece)) * row.normal;
+      }
+      contact.point_world = point.template cast<MeshScalar>();
       contact.normal_world = row.normal.template cast<MeshScalar>();
       contact.gap = MeshScalar(problem_.gap_after(active.row));
       contact.force = MeshScalar(active.multiplier * unit);
@@ -76,6 +84,8 @@ class ClosestFeaturesFollower {
   static constexpr int row_capacity = is_convex ? 128 : 256;
   using Pair = WorkingPair<Scalar>;
   using Pairs = WorkingSet<Scalar, is_convex ? 48 : 256>;
+
+  using Row = ContactRowOf<Piece>;
 
   static constexpr int longest_idle = 8;
 
@@ -92,14 +102,24 @@ class ClosestFeaturesFollower {
   int work_budget(const Scene& scene) const noexcept { return scene.settings().work_budget << patience_; }
 
   /// Doubles the budget after a tick in which it ran out and the tool did not move, and halves it where half would do.
-  void adapt_budget(const Scene& scene, const Tick<MeshScalar>& tick) noexcept {
+  void adapt_budget(const Scene& scene, const Tick<MeshScalar>& tick, bool has_moved) noexcept {
     constexpr int most_patience = 4;
-    if (tick.work >= work_budget(scene) && tick.path.empty()) patience_ = std::min(patience_ + 1, most_patience);
+    if (tick.work >= work_budget(scene) && !has_moved) patience_ = std::min(patience_ + 1, most_patience);
     if (tick.work < work_budget(scene) / 3) patience_ = std::max(patience_ - 1, 0);
   }
 
   /// What is farther away cannot stop the next step [m].
   Scalar reach_of_step(const Scene& scene) const noexcept { return trust_ + scene.margin(); }
+
+  /// Turns that do not matter follow the device at once.
+  void turn_idly(const Scene& scene, Tick<MeshScalar>& tick) noexcept {
+    if constexpr (IdleTurns<typename Scene::Tool>::legs > 0) {
+      const Pose<Scalar> turned = scene.idle_turns().following(pose_, target_);
+      if (turned.rotation.coeffs() == pose_.rotation.coeffs()) return;
+      pose_ = turned;
+      tick.path.push_back(scene.tool_pose(pose_));
+    }
+  }
 
   void reset_limits(const Scene& scene) noexcept {
     trust_ = scene.trust_radius();
@@ -109,13 +129,15 @@ class ClosestFeaturesFollower {
   /// True when it arrived at a local minimum.
   bool advance(const Scene& scene, Tick<MeshScalar>& tick) noexcept {
     constexpr Scalar resting = Scalar(1e-11);
-    const int maximum_iterations = std::min(scene.settings().maximum_iterations, Tick<MeshScalar>::path_capacity);
+    const int maximum_iterations =
+        std::min(scene.settings().maximum_iterations, Tick<MeshScalar>::path_capacity - IdleTurns<typename Scene::Tool>::legs);
+    const auto& turns = scene.idle_turns();
     for (tick.iterations = 0; tick.iterations < maximum_iterations;) {
       ++tick.iterations;
       const Proposal proposal = propose(scene, tick);
-      const Scalar length = scene.length_of(proposal.motion);
+      const Scalar length = scene.length_of(proposal.motion, pose_);
       if (length <= resting) return proposal.is_settled && !proposal.is_capped;
-      if (!descends(scene, moved(pose_, proposal.motion), proposal.restoration)) {
+      if (!descends(scene, turns.moved(pose_, proposal.motion), proposal.restoration)) {
         trust_ = std::min(trust_, length) / 4;
         if (trust_ < resting) break;
         continue;
@@ -126,7 +148,7 @@ class ClosestFeaturesFollower {
         if (!admit(scene, result)) (problem_.row_count() > 0 ? trust_ : flight_) = length / 8;
       } else {
         const bool is_done = result.blockers.empty() && proposal.is_settled && !proposal.is_capped;
-        pose_ = is_done && proposal.is_free ? target_ : moved(pose_, proposal.motion * result.time);
+        pose_ = is_done && proposal.is_free ? target_ : turns.moved(pose_, proposal.motion * result.time);
         if (result.time > Scalar(0)) {
           tick.path.push_back(scene.tool_pose(pose_));
           working_set_.approach(length * result.time);
@@ -149,35 +171,36 @@ class ClosestFeaturesFollower {
   /// Whether a pose is nearer to the target than the certified one, but for what it costs to win the margin back.
   bool descends(const Scene& scene, const Pose<Scalar>& pose, Scalar restoration) const noexcept {
     using std::sqrt;
-    const Scalar before = scene.metric().energy(motion_between(target_, pose_));
-    const Scalar after = scene.metric().energy(motion_between(target_, pose));
+    const Scalar before = scene.metric().energy(scene.idle_turns().motion_between(target_, pose_));
+    const Scalar after = scene.metric().energy(scene.idle_turns().motion_between(target_, pose));
     return after <= before + 2 * restoration + scene.margin() * (sqrt(2 * before) + scene.margin());
   }
 
   /// Solves for the motion from the certified pose, linearising again where the first step ends.
   Proposal propose(const Scene& scene, Tick<MeshScalar>& tick) noexcept {
     constexpr int maximum_rounds = 4;
+    const auto& turns = scene.idle_turns();
     Proposal proposal;
     Pose<Scalar> pose = pose_;
     bool rests_on_assumption = false;
     Scalar previous(0);
     for (int round = 0; round < maximum_rounds; ++round) {
       linearise(scene, pose, round == 0, !rests_on_assumption, tick);
-      const Twist<Scalar> e = motion_between(target_, pose);
+      const Twist<Scalar> e = turns.motion_between(target_, pose);
       const Vector6<Scalar> step = proposal.is_capped ? problem_.restore(scene.metric(), scene.margin())
                                                       : problem_.solve(scene.metric(), e, scene.margin());
       if (round == 0) proposal.restoration = problem_.cost_of_restoration();
       note_tight_pairs();
-      pose = moved(pose, Twist<Scalar>::from_vector(step));
-      proposal.motion = motion_between(pose_, pose);
-      const Scalar last = scene.length_of(Twist<Scalar>::from_vector(step));
+      pose = turns.moved(pose, Twist<Scalar>::from_vector(step));
+      proposal.motion = turns.motion_between(pose_, pose);
+      const Scalar last = scene.length_of(Twist<Scalar>::from_vector(step), pose);
       if (!proposal.is_capped) proposal.is_free = problem_.is_free();
-      const Scalar length = scene.length_of(proposal.motion);
+      const Scalar length = scene.length_of(proposal.motion, pose_);
       const Scalar limit = problem_.row_count() > 0 ? trust_ : flight_;
       if (length > limit && !proposal.is_capped) {
         proposal.is_capped = true;
         proposal.motion = proposal.motion * (limit / length);
-        pose = moved(pose_, proposal.motion);
+        pose = turns.moved(pose_, proposal.motion);
         if (proposal.is_free) return proposal;
         continue;
       }
@@ -199,7 +222,7 @@ class ClosestFeaturesFollower {
     const Matrix3<Scalar> axes = pose.rotation.toRotationMatrix();
     const Scalar band = scene.trust_radius() / 4;
     const Scalar far = reach_of_step(scene);
-    PatchRows<Scalar> rows;
+    PatchRows<Scalar, Row> rows;
     for (int i = 0; i < working_set_.size(); ++i) {
       Pair& pair = working_set_[i];
       if (pair.is_beyond(far)) {
@@ -217,7 +240,7 @@ class ClosestFeaturesFollower {
       }
       ContactPatch<Piece, MeshScalar> patch(scene.piece(pair.piece), scene.incidence(pair.piece), scene.object(), axes, scene.reference(), band, assumes_valleys);
       pair.has_rows = patch.find(pair.triangle, corners, closest, pair.keeps_ghost, rows);
-      for (ContactRow<Scalar>& row : rows) {
+      for (Row& row : rows) {
         row.piece = pair.piece;
         row.triangle = pair.triangle;
         problem_.add(row, pair.slack, pair.is_tight);
@@ -237,11 +260,13 @@ class ClosestFeaturesFollower {
   /// Closest points of a pair. On the way the tool may overlap it; then the plane it had at the certified pose says which features meet.
   static ClosestPoints<Scalar> closest_points(const Scene& scene, const Matrix3<Scalar>& corners,
                                               const Matrix3<Scalar>& axes, const Pair& pair,
-                                              bool is_certified) noexcept {
+                                              [[maybe_unused]] bool is_certified) noexcept {
     const Piece& piece = scene.piece(pair.piece);
     ClosestPoints<Scalar> closest = gjk(piece, corners, pair.features, scene.clearance().touching);
     if (!closest.is_touching) return closest;
-    if (is_certified || pair.slack < 2 * scene.clearance().touching) return separation_of_touching(piece, corners, closest);
+    if constexpr (!SweptTool<Piece>) {  // whose core touches nothing but on the way, and there by far
+      if (is_certified || pair.slack < 2 * scene.clearance().touching) return separation_of_touching(piece, corners, closest);
+    }
     closest.normal = axes.transpose() * pair.normal;
     closest.distance = separation_along(piece, corners, closest.normal);
     closest.features = {};
@@ -282,7 +307,7 @@ class ClosestFeaturesFollower {
   Scalar flight_ = 0;     // the same away from it, where only the work of the certificate limits it
   Pairs working_set_;
   MotionCertificate<ToolType> certificate_;
-  StepProblem<Solver, row_capacity> problem_;
+  StepProblem<Solver, row_capacity, Row> problem_;
 };
 
 /// The default contact method: constraint planes between the closest features of the tool and the triangles in its way.

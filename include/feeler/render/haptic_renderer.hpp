@@ -94,7 +94,7 @@ class HapticRenderer {
     tick_.graphic_pose = scene_.tool_pose(follower_.pose());
     const Stiffness<Working> stiffness{settings().stiffness.translational.template cast<Working>(),
                                        settings().stiffness.rotational.template cast<Working>()};
-    tick_.wrench = stiffness.wrench(motion_between(target, follower_.pose())).template cast<Scalar>();
+    tick_.wrench = stiffness.wrench(scene_.idle_turns().motion_between(target, follower_.pose())).template cast<Scalar>();
     tick_.contacts.clear();
     follower_.report(scene_, tick_);
   }

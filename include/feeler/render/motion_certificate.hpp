@@ -36,7 +36,14 @@ class MotionCertificate {
     Scalar until = Scalar(1);
     for (int piece = 0; piece < scene.piece_count(); ++piece) {
       const MovingTool<Piece> moving = scene.moving(piece, from, motion);
-      const Clearance<Scalar> clearance = scene.clearance_for(moving);
+      Clearance<Scalar> clearance = scene.clearance_for(moving);
+      // A ball that slides in a fit comes as near to the next triangle of a wall as it is to this one. What to keep is safe to judge by the
+      // nearest, because the core stays a radius away.
+      if constexpr (SweptTool<Piece>) {
+        for (int i = 0; i < pairs.size(); ++i) {
+          if (pairs[i].piece == piece) clearance.kept = std::min(clearance.kept, clearance.required(pairs[i].slack));
+        }
+      }
       std::array<KnownTriangle<Scalar>, std::size_t(pair_capacity)> known;
       int known_count = 0;
       for (int i = 0; i < pairs.size(); ++i) {

@@ -9,6 +9,7 @@
 #include "feeler/object/triangle_mesh.hpp"
 #include "feeler/proximity/motion.hpp"
 #include "feeler/proximity/passage.hpp"
+#include "feeler/render/idle_turns.hpp"
 #include "feeler/render/settings.hpp"
 #include "feeler/tool/rigid_tool.hpp"
 #include "feeler/tool/tool_incidence.hpp"
@@ -43,13 +44,16 @@ class RenderedScene {
         settings_(settings),
         reference_(settings.reference_point.template cast<Scalar>()),
         metric_((settings.metric ? *settings.metric : Metric<MeshScalar>::proportional_to(settings.stiffness))
-                    .template cast<Scalar>()) {
+                    .template cast<Scalar>()),
+        idle_turns_(tool_, reference_, metric_) {
+    Scalar surface = Scalar(0);
     for (int i = 0; i < piece_count(); ++i) {
       incidences_[index(i)] = incidence_of(piece(i));
       radii_[index(i)] = radius_about(piece(i), reference_);
       radius_ = std::max(radius_, radii_[index(i)]);
+      surface = std::max(surface, radii_[index(i)] + swept_radius(piece(i)));
     }
-    const Scalar size = std::max(radius_, Scalar(object.bounds().diagonal().norm()));
+    const Scalar size = std::max(surface, Scalar(object.bounds().diagonal().norm()));
     const Scalar rounding = 256 * std::numeric_limits<Scalar>::epsilon() * size;
     clearance_.kept = margin() / 10;
     clearance_.allowance = std::max(clearance_.allowance, rounding);
@@ -65,7 +69,7 @@ class RenderedScene {
   const Settings<MeshScalar>& settings() const noexcept { return settings_; }
   /// In the tool frame [m].
   const Vector3<Scalar>& reference() const noexcept { return reference_; }
-  /// Largest distance of a tool point from the reference point [m].
+  /// Largest distance of a point of the tool, or of its core, from the reference point [m].
   Scalar radius() const noexcept { return radius_; }
   const Metric<Scalar>& metric() const noexcept { return metric_; }
   const Clearance<Scalar>& clearance() const noexcept { return clearance_; }
@@ -93,9 +97,15 @@ class RenderedScene {
   MovingTool<Piece> moving(int i, const Pose<Scalar>& from, const Twist<Scalar>& motion) const noexcept {
     return {piece(i), reference_, radii_[index(i)], from, motion};
   }
-  /// Bound on the path of every tool point [m].
+  /// The turns that do not matter, and what is left of motions without them.
+  const IdleTurns<Tool>& idle_turns() const noexcept { return idle_turns_; }
+  /// Bound on the path of every point of the tool, or of its core [m].
   Scalar length_of(const Twist<Scalar>& motion) const noexcept {
     return motion.linear.norm() + radius_ * motion.angular.norm();
+  }
+  /// The same for a motion from a pose: turns that do not matter have no length.
+  Scalar length_of(const Twist<Scalar>& motion, const Pose<Scalar>& from) const noexcept {
+    return motion.linear.norm() + radius_ * idle_turns_.angle_that_matters(motion.angular, from);
   }
   /// The corners of a triangle in the tool frame of a pose with the axes given [m].
   Matrix3<Scalar> in_tool(const Matrix3<Scalar>& corners_world, const Pose<Scalar>& pose,
@@ -114,6 +124,7 @@ class RenderedScene {
   std::array<Scalar, std::size_t(maximum_pieces<Tool>)> radii_;
   Scalar radius_ = Scalar(0);
   Metric<Scalar> metric_;
+  [[no_unique_address]] IdleTurns<Tool> idle_turns_;
   Clearance<Scalar> clearance_;
 };
 

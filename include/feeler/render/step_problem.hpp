@@ -19,11 +19,12 @@ namespace feeler {
 /// The target is the margin. Rows that together cannot have it (a fit tighter than twice the margin) are asked for less, only those in the
 /// infeasibility certificate: no closer than they were at the last certified pose, of which a fifth of the margin is enough. As
 /// that pose meets them, a step exists. Where there is no clearance at all, rounding decides who has it: there the target is 0.
-template <QpSolver Solver, int rows = 128>
+/// @tparam RowType  a `ContactRow`, or one with another curvature
+template <QpSolver Solver, int rows = 128, class RowType = ContactRow<typename Solver::Scalar>>
 class StepProblem {
  public:
   using Scalar = typename Solver::Scalar;
-  using Row = ContactRow<Scalar>;
+  using Row = RowType;
   static constexpr int row_capacity = rows;
   static_assert(row_capacity <= QpProblem<Scalar>::row_capacity);
 
