@@ -20,5 +20,6 @@
 #include "feeler/tool/compound_tool.hpp"
 #include "feeler/tool/convex_polytope.hpp"
 #include "feeler/tool/point.hpp"
+#include "feeler/tool/round_solids.hpp"
 #include "feeler/tool/segment.hpp"
 #include "feeler/tool/sphere_swept.hpp"
