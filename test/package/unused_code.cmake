@@ -7,7 +7,7 @@ if(NOT symbols MATCHES "HapticRenderer|ClosestFeaturesFollower")
   message(FATAL_ERROR "${PROGRAM} has no symbols to look at")
 endif()
 foreach(unused CandidateContacts LocalSearch StepCoordinates first_vertex_hit overlapped_triangles ContactRecogniser
-    SurfaceFeatures WitnessSearch)
+    SurfaceFeatures WitnessSearch SphereSwept SweptContactRow)
   if(symbols MATCHES "${unused}")
     message(FATAL_ERROR "${unused} is in a program that does not use it")
   endif()
