@@ -45,7 +45,7 @@ class CompoundTool {
   const Piece& piece(int i) const noexcept { return pieces_[std::size_t(i)]; }
 
   template <class Other>
-  CompoundTool<ToolCast<Piece, Other>> cast() const {
+  auto cast() const {  // named in the body, so that a piece may do without a cast
     std::vector<ToolCast<Piece, Other>> pieces;
     pieces.reserve(pieces_.size());
     for (const Piece& piece : pieces_) pieces.push_back(piece.template cast<Other>());

@@ -61,7 +61,7 @@ class SphereSwept {
 
   /// The same shape in another scalar; a radius that vanishes there is refused.
   template <class Other>
-  SphereSwept<ToolCast<Core, Other>> cast() const {
+  auto cast() const {  // named in the body, so that a core may do without a cast
     return SphereSwept<ToolCast<Core, Other>>(core_.template cast<Other>(), static_cast<Other>(radius_));
   }
 
