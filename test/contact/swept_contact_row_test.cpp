@@ -11,6 +11,8 @@
 #include "feeler/tool/sphere_swept.hpp"
 #include "support/random_tools.hpp"
 
+BOOST_AUTO_TEST_SUITE(swept_contact_row)
+
 using feeler::SweptContactRow;
 using namespace feeler_test;
 
@@ -84,8 +86,6 @@ Pair random_pair(std::mt19937& bits, bool has_tool_edge, bool has_object_edge) {
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(swept_contact_row)
 
 BOOST_AUTO_TEST_CASE(gradient_and_curvature_of_points_and_lines_are_derivatives_of_their_distance) {
   constexpr unsigned seed = 1;

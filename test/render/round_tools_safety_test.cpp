@@ -15,6 +15,8 @@
 #include "support/allocation_count.hpp"
 #include "support/rendering.hpp"
 
+BOOST_AUTO_TEST_SUITE(round_tools_safety)
+
 using namespace feeler;
 using namespace feeler::test;
 
@@ -195,8 +197,6 @@ void try_to_break_out(const Tool& tool, double gap, const std::string& name, std
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(round_tools_safety)
 
 BOOST_AUTO_TEST_CASE(a_hostile_device_never_makes_a_round_tool_penetrate_a_cavity) {
   for (const double clearance : {1e-3, 1e-5, 0.0}) {

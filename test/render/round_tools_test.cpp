@@ -10,6 +10,8 @@
 #include "scenes/motions.hpp"
 #include "support/rendering.hpp"
 
+BOOST_AUTO_TEST_SUITE(round_tools)
+
 using namespace feeler;
 using namespace feeler::test;
 
@@ -72,8 +74,6 @@ double force_along(const Tick<double>& tick, const Vector3<double>& normal) {
 const Quaternion<double> askew = exp_rotation<double>({0.3, -0.7, 0.2});
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(round_tools)
 
 BOOST_AUTO_TEST_CASE(a_sphere_in_a_groove_feels_each_wall_with_its_share) {
   for (const double slope : {0.2, 0.7, 1.3}) {

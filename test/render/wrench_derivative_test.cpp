@@ -14,6 +14,8 @@
 #include "support/allocation_count.hpp"
 #include "support/rendering.hpp"
 
+BOOST_AUTO_TEST_SUITE(wrench_derivative_test)
+
 using namespace feeler;
 using namespace feeler::test;
 
@@ -101,8 +103,6 @@ void check_probes(scenes::Scene scene, const std::vector<Probe>& probes, Setting
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(wrench_derivative_test)
 
 BOOST_AUTO_TEST_CASE(free_space_answers_nothing) {
   const auto scene = scenes::plate();

@@ -8,6 +8,8 @@
 
 #include "scenes/motions.hpp"
 
+BOOST_AUTO_TEST_SUITE(engines)
+
 namespace {
 
 using feeler::Pose;
@@ -46,8 +48,6 @@ Pose<double> at_height(double z) {
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(engines)
 
 BOOST_AUTO_TEST_CASE(a_tuned_tool_has_no_lag_behind_a_device_at_constant_velocity) {
   for_every_engine([](CoupledTool& tool, const auto& scene) {

@@ -3,6 +3,8 @@
 
 #include <boost/test/unit_test.hpp>
 
+BOOST_AUTO_TEST_SUITE(side_of_object)
+
 namespace {
 
 using feeler::rivals::SideOfObject;
@@ -18,8 +20,6 @@ feeler::test::CheckedObject sheet() {
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(side_of_object)
 
 BOOST_AUTO_TEST_CASE(a_way_through_and_back_changes_the_side_twice) {
   const auto object = sheet();

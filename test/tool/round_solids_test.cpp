@@ -10,6 +10,8 @@
 
 #include "support/tool_laws.hpp"
 
+BOOST_AUTO_TEST_SUITE(round_solids)
+
 using feeler::ConvexPolytope;
 using feeler::Facets;
 using Vector = feeler::Vector3<double>;
@@ -45,8 +47,6 @@ std::string refusal(const Build& build) {
 bool contains(const std::string& text, const char* part) { return text.find(part) != std::string::npos; }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(round_solids)
 
 BOOST_AUTO_TEST_CASE(cylinders_and_cones_obey_the_laws_and_have_the_features_of_prisms_and_pyramids) {
   for (const int facets : {3, 7, 32, 128}) {

@@ -9,6 +9,8 @@
 
 #include "support/tool_laws.hpp"
 
+BOOST_AUTO_TEST_SUITE(sphere_swept)
+
 using feeler::Box;
 using feeler::Capsule;
 using feeler::ConvexPolytope;
@@ -42,8 +44,6 @@ void check_in_every_scalar(const Tool& tool, bool solid) {
   if constexpr (!std::is_same_v<Tool, RoundedPolytope<double>>) feeler_test::check_tool_laws(tool.template cast<long double>(), solid);
 }
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(sphere_swept)
 
 BOOST_AUTO_TEST_CASE(points_and_swept_tools_obey_the_laws_of_their_cores_in_every_scalar) {
   check_in_every_scalar(Point<double>(), false);
