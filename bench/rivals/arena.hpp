@@ -26,6 +26,7 @@ class Arena {
         contest_{.scene = setting.name,
                  .motion = setting.motion,
                  .start = setting.start,
+                 .tip = setting.tip,
                  .length = setting.length,
                  .tools = {},
                  .free_tools = {},

@@ -110,6 +110,7 @@ class BulletTool final : public CoupledTool {
 
   CoupledTick update(const Pose<double>& haptic_pose) override {
     device_.advance(haptic_pose, tick_seconds_);
+    path_.clear();
     const double step = tick_seconds_ / settings_.substeps;
     for (int i = 0; i < settings_.substeps; ++i) {
       // With the velocity fed forward, the spring acts on where the device is as the step begins: a body at
@@ -117,10 +118,11 @@ class BulletTool final : public CoupledTool {
       pull_towards(settings_.coupling.feeds_velocity_forward ? device_.pose(double(i) / settings_.substeps)
                                                              : haptic_pose);
       world_.stepSimulation(step, 0, step);
+      path_.push_back(pose());
     }
-    const Pose<double> body = pose();
+    const Pose<double>& body = path_.back();
     return {body, settings_.coupling.spring_on_hand(body, haptic_pose),
-            settings_.coupling.damper_on_hand(velocity(), device_.velocity())};
+            settings_.coupling.damper_on_hand(velocity(), device_.velocity()), path_};
   }
 
  private:
@@ -153,6 +155,7 @@ class BulletTool final : public CoupledTool {
   BulletSettings settings_;
   double tick_seconds_;
   DeviceMotion device_;
+  std::vector<Pose<double>> path_;
   std::vector<btScalar> vertices_;
   std::vector<int> indices_;
   std::unique_ptr<btTriangleIndexVertexArray> triangles_;

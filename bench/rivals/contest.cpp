@@ -26,6 +26,7 @@ double thread_time() {
 /// The ticks of one contender, as many as it made.
 struct Track {
   std::vector<Pose<double>> poses;
+  std::vector<std::vector<Pose<double>>> paths;  // to each pose
   std::vector<double> microseconds;
 };
 
@@ -62,13 +63,18 @@ std::vector<Track> run_in_turns(Contest& contest, const std::vector<Pose<double>
       const bool is_query = c == contest.tools.size();
       for (std::size_t i = begin; i < end; ++i) {
         const Pose<double> pose = is_query ? tracks[0].poses[i] : device[i];
+        CoupledTick tick;
         const double start = thread_time();
         if (is_query) {
           distances.push_back(contest.distance(pose));
         } else {
-          track.poses.push_back(contest.tools[c]->update(pose).graphic_pose);
+          tick = contest.tools[c]->update(pose);
         }
         track.microseconds.push_back(thread_time() - start);
+        if (!is_query) {
+          track.poses.push_back(tick.graphic_pose);
+          track.paths.emplace_back(tick.path.begin(), tick.path.end());
+        }
         spent[c] += track.microseconds.back();
       }
       // The first tool's poses are what the query and the choice of ticks need: it does not drop out.
@@ -78,17 +84,32 @@ std::vector<Track> run_in_turns(Contest& contest, const std::vector<Pose<double>
   return tracks;
 }
 
+/// Points of the tool that no surface may pass: its middle, and of a long one a point 1 mm inside its tip.
+/// The depth in a triangle cannot tell how far a tip is through, since sideways it is soon out of a small
+/// one.
+std::vector<Vector3<double>> marks_of(const Contest& contest) {
+  constexpr double inside = 1e-3;  // [m]
+  std::vector<Vector3<double>> marks{middle_of(contest.pieces)};
+  const Vector3<double> way = marks.front() - contest.tip;
+  if (way.norm() > 2.0 * inside) marks.emplace_back(contest.tip + inside * way.normalized());
+  return marks;
+}
+
 void judge(const Contest& contest, const Track& track, int check_every, Score& score) {
-  const Vector3<double> middle = middle_of(contest.pieces);
-  SideOfObject side(contest.object, contest.start * middle);
+  const std::vector<Vector3<double>> marks = marks_of(contest);
+  std::vector<SideOfObject> sides;
+  for (const auto& mark : marks) sides.emplace_back(contest.object, contest.start * mark);
   for (std::size_t i = 0; i < track.poses.size(); ++i) {
-    side.move_to(track.poses[i] * middle);
+    for (const Pose<double>& pose : track.paths[i]) {
+      for (std::size_t k = 0; k < marks.size(); ++k) sides[k].move_to(pose * marks[k]);
+    }
     if (int(i) % check_every != check_every - 1) continue;
     ++score.samples;
     const auto found =
         test::deepest_penetration(contest.object, contest.pieces, test::checked_pose(track.poses[i]));
     score.deepest = std::max(score.deepest, double(found.depth));
-    score.crossed += side.is_other() ? 1 : 0;
+    score.crossed +=
+        std::any_of(sides.begin(), sides.end(), [](const auto& side) { return side.is_other(); }) ? 1 : 0;
   }
 }
 

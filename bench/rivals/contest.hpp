@@ -27,7 +27,8 @@ struct Contest {
   std::string scene;
   scenes::Motion motion;
   Pose<double> start;
-  double length;  ///< L of the metric [m]
+  Vector3<double> tip;  ///< of the tool, in its frame [m]
+  double length;        ///< L of the metric [m]
   std::vector<std::unique_ptr<CoupledTool>> tools;
   std::vector<std::unique_ptr<CoupledTool>> free_tools;  ///< the same, with the object out of reach
   std::function<double(const Pose<double>&)>
@@ -44,7 +45,7 @@ struct Score {
   bool is_query = false;              ///< a distance alone: nothing below is known
   int samples = 0;                    ///< ticks looked at, in contact or not
   double deepest = 0;                 ///< penetration by the independent checker over the samples [m]
-  int crossed = 0;    ///< samples in which the centre of the tool was on the other side of the object
+  int crossed = 0;    ///< samples in which the middle or the tip of the tool was through the object
   double jitter = 0;  ///< with the device held: the farthest that a settled tool moves, in the metric [m];
                       ///< NaN where it dropped out before
   double lag = 0;     ///< behind the device in free space [m]

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <memory>
+#include <span>
 #include <string>
 
 #include "feeler/spatial/pose.hpp"
@@ -19,6 +20,10 @@ struct CoupledTick {
   Wrench<double> wrench;      ///< of the spring, K (q_g − q_h) as Feeler's
   Wrench<double> damping;     ///< of the damper beside the spring; add it for the whole reaction of the
                               ///< coupling; Feeler has none
+
+  /// Poses on the way from the last graphic pose to this one, in order; valid until the next call. An
+  /// engine's are those after its steps.
+  std::span<const Pose<double>> path;
 };
 
 /// A tool that a device drags through an object.

@@ -30,7 +30,7 @@ class FeelerTool final : public CoupledTool {
 
   CoupledTick update(const Pose<double>& haptic_pose) override {
     const auto& tick = renderer_.update(haptic_pose);
-    return {tick.graphic_pose, tick.wrench, {}};
+    return {tick.graphic_pose, tick.wrench, {}, {tick.path.begin(), tick.path.end()}};
   }
 
  private:

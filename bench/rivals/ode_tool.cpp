@@ -105,16 +105,18 @@ class OdeTool final : public CoupledTool {
   CoupledTick update(const Pose<double>& haptic_pose) override {
     dRandSetSeed(random_seed_);  // the engine shuffles constraints; each tool has its own stream
     device_.advance(haptic_pose, tick_seconds_);
+    path_.clear();
     for (int i = 0; i < substeps_; ++i) {
       pull_towards(device_.pose(double(i) / substeps_));
       collide();
       dWorldQuickStep(world_, tick_seconds_ / substeps_);
       dJointGroupEmpty(contact_joints_);
+      path_.push_back(pose());
     }
     random_seed_ = dRandGetSeed();
-    const Pose<double> body = pose();
+    const Pose<double>& body = path_.back();
     return {body, coupling_.spring_on_hand(body, haptic_pose),
-            coupling_.damper_on_hand(velocity(), device_.velocity())};
+            coupling_.damper_on_hand(velocity(), device_.velocity()), path_};
   }
 
  private:
@@ -178,6 +180,7 @@ class OdeTool final : public CoupledTool {
   int substeps_;
   double tick_seconds_;
   DeviceMotion device_;
+  std::vector<Pose<double>> path_;
   unsigned long random_seed_ = 0;
   dWorldID world_;
   dBodyID body_;

@@ -47,6 +47,7 @@ std::string header(const std::vector<std::string>& cells) {
 
 std::vector<std::string> names(const std::vector<Score>& scores) {
   std::vector<std::string> list;
+  list.reserve(scores.size());
   for (const auto& score : scores) list.push_back(score.name);
   return list;
 }
@@ -209,8 +210,9 @@ bool draw_scenes(const std::filesystem::path& folder, const std::vector<SceneSco
       "'#e6e9ec' lt 1 lw 1\nset xtics rotate by -35\nset xrange [-0.6:" +
       std::to_string(double(all.size()) - 0.4) + "]\n";
   std::string labels = "set xtics (";
-  for (std::size_t i = 0; i < all.size(); ++i)
-    labels += std::string(i > 0 ? ", " : "") + "'" + all[i].scene + "' " + std::to_string(i);
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    labels.append(i > 0 ? ", '" : "'").append(all[i].scene).append("' ").append(std::to_string(i));
+  }
   labels += ")\n";
   const bool has_times =
       experiments::draw(folder, "rivals_time", 1100, 480,

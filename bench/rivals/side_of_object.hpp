@@ -32,7 +32,8 @@ class SideOfObject {
 
   bool is_other() const { return crossings_ % 2 != 0; }
 
-  /// A straight line on from the last place [m].
+  /// A straight line on from the last place [m]; in short steps, or the line cuts a corner that the way went
+  /// around.
   void move_to(const Eigen::Vector3d& place) {
     Eigen::AlignedBox3d way(place_);
     way.extend(place);

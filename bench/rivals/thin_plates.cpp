@@ -56,7 +56,7 @@ bool is_pushed_through(CoupledTool& tool, const Contest& contest, const Pose<dou
     const double t = double(i) / rate;
     Pose<double> device = start;
     device.translation.z() -= push.way * (t >= push.seconds ? 1.0 : t / push.seconds);
-    side.move_to(tool.update(device).graphic_pose * middle);
+    for (const Pose<double>& pose : tool.update(device).path) side.move_to(pose * middle);
   }
   return side.is_other();
 }
