@@ -29,6 +29,8 @@ std::string times(const Score& score) {
 }
 
 std::string behaviour(const Score& score) {
+  if (score.ticks == 0)
+    return "–; –; –; " + rounded(1e6 * score.lag);  // dropped out before it touched anything
   return rounded(1e6 * score.deepest) + "; " + std::to_string(score.crossed) + "/" +
          std::to_string(score.samples) + "; " + rounded(1e6 * score.jitter) + "; " + rounded(1e6 * score.lag);
 }
