@@ -437,7 +437,7 @@ void study_passivity(const StudyOptions& options) {
 }
 
 int study_theory(const StudyOptions& options) {
-  constexpr double tolerance = 0.05;
+  constexpr double tolerance = 0.07;  // 2 % of the bisection, and the first order of the integration
   Contacts contacts;
   TextFile table(options.folder / "theory.md");
   table.print(

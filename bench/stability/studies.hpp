@@ -43,7 +43,7 @@ void study_extrapolation(const StudyOptions& options);
 void study_passivity(const StudyOptions& options);
 /// A face on a wall without friction and encoders, against linear theory: what the simulation itself is
 /// worth.
-/// @return limits that differ by more than 5 %
+/// @return limits that differ by more than 7 %
 int study_theory(const StudyOptions& options);
 /// Handle and force over time, below and above the limit.
 void study_traces(const StudyOptions& options);
