@@ -54,7 +54,7 @@ BOOST_AUTO_TEST_CASE(a_tick_of_loop_device_and_hand_off_allocates_nothing_and_th
   }
 }
 
-BOOST_AUTO_TEST_CASE(a_tick_of_every_driver_with_safety_and_recorder_allocates_nothing) {
+BOOST_AUTO_TEST_CASE(a_tick_of_every_driver_with_passivity_control_safety_and_recorder_allocates_nothing) {
   auto& hd = feeler_test::stand_in<feeler_test::OpenHapticsStandIn>(FEELER_OPEN_HAPTICS_STAND_IN);
   feeler_test::stand_in<feeler_test::ForceDimensionStandIn>(FEELER_FORCE_DIMENSION_STAND_IN);
   feeler_test::stand_in<feeler_test::VirtuoseStandIn>(FEELER_VIRTUOSE_STAND_IN);
@@ -72,6 +72,7 @@ BOOST_AUTO_TEST_CASE(a_tick_of_every_driver_with_safety_and_recorder_allocates_n
     settings.tick_limit = 200;
     settings.real_time = {.fifo = false, .priority = 80, .lock_memory = false, .processor = -1};
     settings.recorder = &recorder;
+    settings.passivity = feeler::passivity_of(device->specification(), 1e-3);
     std::int64_t before = 0;
     std::int64_t after = 0;
     feeler::ServoLoop* self = nullptr;
