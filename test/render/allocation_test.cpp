@@ -6,6 +6,7 @@
 #include <type_traits>
 
 #include "feeler/render/candidate_contacts.hpp"
+#include "feeler/render/wrench_derivative.hpp"
 #include "scenes/cavity.hpp"
 #include "scenes/spline.hpp"
 #include "scenes/steps.hpp"
@@ -76,6 +77,22 @@ BOOST_AUTO_TEST_CASE(a_tick_of_a_tool_of_several_pieces_allocates_nothing) {
   });
   BOOST_TEST(allocations == 0);
   BOOST_TEST(contact_ticks > 100);
+}
+
+BOOST_AUTO_TEST_CASE(asking_for_the_derivative_of_the_wrench_allocates_nothing) {
+  const auto scene = scenes::cavity(1e-3);
+  const TriangleMesh<double> object(scene.vertices, scene.triangles);
+  HapticRenderer renderer(object, std::get<Box<double>>(scene.tool), scene.settings());
+  renderer.reset(scene.start);
+  double sum = 0;
+  std::int64_t allocations = 0;
+  for (int i = 0; i < 500; ++i) {
+    renderer.update(scene.motion(i * 1e-3));
+    allocations +=
+        feeler_test::allocations_during([&] { sum += wrench_derivative(renderer).matrix.sum(); });
+  }
+  BOOST_TEST(allocations == 0);
+  BOOST_TEST(sum < 0);
 }
 #else
 BOOST_AUTO_TEST_CASE(allocations_are_not_counted_with_a_sanitizer) {

@@ -11,7 +11,6 @@
 #include "scenes/plate.hpp"
 #include "scenes/steps.hpp"
 #include "scenes/terrain.hpp"
-#include "support/allocation_count.hpp"
 #include "support/rendering.hpp"
 
 BOOST_AUTO_TEST_SUITE(wrench_derivative_test)
@@ -203,22 +202,5 @@ BOOST_AUTO_TEST_CASE(the_derivative_of_a_pull_is_its_slope_for_large_turns_too) 
     }
   }
 }
-
-#if FEELER_TEST_COUNTS_ALLOCATIONS
-BOOST_AUTO_TEST_CASE(asking_allocates_nothing) {
-  const auto scene = scenes::cavity(1e-3);
-  const TriangleMesh<double> object(scene.vertices, scene.triangles);
-  HapticRenderer renderer(object, std::get<Box<double>>(scene.tool), scene.settings());
-  renderer.reset(scene.start);
-  double sum = 0;
-  for (int i = 0; i < 500; ++i) {
-    renderer.update(scene.motion(i * 1e-3));
-    BOOST_TEST_REQUIRE(
-        feeler_test::allocations_during([&] { sum += wrench_derivative(renderer).matrix.sum(); }) == 0);
-  }
-  BOOST_TEST(std::isfinite(sum));
-  BOOST_TEST(sum != 0);
-}
-#endif
 
 BOOST_AUTO_TEST_SUITE_END()
