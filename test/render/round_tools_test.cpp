@@ -189,6 +189,13 @@ BOOST_AUTO_TEST_CASE(a_sphere_between_two_plates_without_clearance_slides_freely
     deepest = std::max(deepest, witness.depth_on_way(from, tick, 5));
     unconverged += !tick.converged();
   }
+  // It starts as well beside the diagonal of the plates by a hair.
+  for (const double aside : {1e-11, 1e-10, 1e-9, 1e-8}) {
+    HapticRenderer beside(plates, ball, settings_about({0, 0, 0}));
+    BOOST_TEST((beside.reset({{aside, 0, 0}, Quaternion<double>::Identity()}) == Status::converged));
+    const auto& tick = beside.update({{0.001, -0.001, 0.001}, Quaternion<double>::Identity()});
+    BOOST_TEST((tick.graphic_pose.translation - Vector3<double>(0.001, -0.001, 0)).norm() <= no_clearance_depth);
+  }
   BOOST_TEST_MESSAGE("free directions off by " << worst_free << " m, across by " << worst_across << " m, deepest " << deepest << " m, unconverged " << unconverged);
   BOOST_TEST(worst_free <= 1e-9 * 0.03);
   BOOST_TEST(worst_across <= no_clearance_depth);

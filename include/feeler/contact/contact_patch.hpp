@@ -338,12 +338,6 @@ class ContactPatch {
     }
     const Vector on_core = vertices.size() == 1 ? Vector(tool_.vertex(vertices[0])) : closest.tool_point;
     row.arm = world_from_tool_ * (on_core - reference_);
-    // Beside the triangle by a hair: in a fit without clearance the least tilt of the normal would be a wedge.
-    if (has_face_ && faces_tool_ && vertices.size() < 3 && face_normal_.cross(normal_).squaredNorm() < Scalar(1e-10)) {
-      row.normal = world_from_tool_ * Vector(side_ * face_normal_);
-      row.gap = on_surface(side_ * face_normal_.dot(on_core - corners_.col(0)));
-      return row;
-    }
     if (vertices.size() == 3) {  // a face of the core
       row.kind = FeaturePair::face_vertex;
       row.arm = world_from_tool_ * (closest.triangle_point - reference_);

@@ -118,12 +118,25 @@ ClosestPoints<typename Tool::Scalar> gjk(const Tool& tool, const Matrix3<typenam
 }
 
 /// Closest points of the core of a swept tool and a triangle, and the distance of its surface: less by the radius, and negative where the ball
-/// overlaps the triangle. As long as the core does not touch, no direction is in doubt.
+/// overlaps the triangle. The algorithm compares squares, so that at a distance it knows the direction to √ε only, which a large triangle
+/// makes into nanometres: where the triangle's own plane shows as much distance, it is taken.
 template <SweptTool Tool>
 ClosestPoints<typename Tool::Scalar> gjk(const Tool& tool, const Matrix3<typename Tool::Scalar>& triangle,
                                          const WitnessFeatures& warm,
                                          typename Tool::Scalar touching_distance) noexcept {
+  using Scalar = typename Tool::Scalar;
   auto closest = gjk(tool.core(), triangle, warm, touching_distance);
+  const Vector3<Scalar> across = Vector3<Scalar>(triangle.col(1) - triangle.col(0)).cross(Vector3<Scalar>(triangle.col(2) - triangle.col(0)));
+  const Scalar area = across.norm();
+  if (area > Scalar(0) && !closest.is_touching) {
+    const Vector3<Scalar> normal = across / (across.dot(closest.normal) < Scalar(0) ? -area : area);
+    const int vertex = tool.support(Vector3<Scalar>(-normal));
+    const Scalar distance = normal.dot(tool.vertex(vertex)) - (normal.transpose() * triangle).maxCoeff();
+    if (distance >= closest.distance) {
+      closest.normal = normal;
+      closest.distance = distance;
+    }
+  }
   closest.distance -= tool.swept_radius();
   return closest;
 }
