@@ -9,6 +9,7 @@
 #include "feeler/contact/contact_patch.hpp"
 #include "feeler/spatial/pose.hpp"
 #include "feeler/tool/sphere_swept.hpp"
+#include "feeler/tool/tool_incidence.hpp"
 #include "support/random_tools.hpp"
 
 BOOST_AUTO_TEST_SUITE(swept_contact_row)

@@ -1,5 +1,5 @@
-// Counts what a program takes from the heap, Eigen's own calls of malloc included. One file of a program may
-// include it.
+// Counts what a program takes from the heap, Eigen's own calls of malloc included. Weak, so that any file of a
+// program may include it.
 #pragma once
 
 #include <Eigen/Core>
@@ -35,19 +35,19 @@ void* __libc_malloc(std::size_t size);
 void* __libc_calloc(std::size_t count, std::size_t size);
 void* __libc_realloc(void* memory, std::size_t size);
 void* __libc_memalign(std::size_t alignment, std::size_t size);
-[[gnu::noinline]] void* malloc(std::size_t size) {
+[[gnu::weak]] void* malloc(std::size_t size) {
   ++feeler_test::allocations;
   return __libc_malloc(size);
 }
-[[gnu::noinline]] void* calloc(std::size_t count, std::size_t size) {
+[[gnu::weak]] void* calloc(std::size_t count, std::size_t size) {
   ++feeler_test::allocations;
   return __libc_calloc(count, size);
 }
-[[gnu::noinline]] void* realloc(void* memory, std::size_t size) {
+[[gnu::weak]] void* realloc(void* memory, std::size_t size) {
   ++feeler_test::allocations;
   return __libc_realloc(memory, size);
 }
-[[gnu::noinline]] void* aligned_alloc(std::size_t alignment, std::size_t size) {
+[[gnu::weak]] void* aligned_alloc(std::size_t alignment, std::size_t size) {
   ++feeler_test::allocations;
   return __libc_memalign(alignment, size);
 }
