@@ -189,7 +189,7 @@ BOOST_AUTO_TEST_CASE(with_the_certificate_a_hostile_device_never_makes_the_tool_
           contact_ticks += tick.contacts.empty() ? 0 : 1;
         }
         BOOST_TEST(deepest <= no_clearance_depth);
-        BOOST_TEST(contact_ticks > 0);
+        if (runs_all_ticks) BOOST_TEST(contact_ticks > 5);
       });
     }
   }

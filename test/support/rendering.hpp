@@ -26,6 +26,9 @@ namespace feeler::test {
 /// Ticks to run: all of them, or a part where a sanitizer makes each of them slow.
 constexpr int ticks_to_run(int count, int part = 10) { return FEELER_TEST_SANITIZED != 0 ? count / part : count; }
 
+/// Whether a motion has the ticks to get where it should: what it must meet on its way is not asked of a part of it.
+constexpr bool runs_all_ticks = FEELER_TEST_SANITIZED == 0;
+
 /// Depth that counts as touching: the rounding of the checker.
 constexpr double touching_depth = 1e-17;
 /// Depth that rounding may leave where there is no clearance at all [m].
