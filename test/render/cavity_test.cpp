@@ -84,7 +84,7 @@ BOOST_AUTO_TEST_CASE(a_cube_tilts_in_its_cavity_as_far_as_the_clearance_lets_it)
 }
 
 BOOST_AUTO_TEST_CASE(free_directions_follow_the_device_and_blocked_ones_hold) {
-  for (const double clearance : {1e-3, 1e-5, 0.0}) {
+  for (const double clearance : {1e-3, 1e-4, 1e-5, 1e-6, 0.0}) {
     Cavity cavity(clearance);
     double worst_free = 0, worst_turn = 0, worst_blocked = 0;
     for (int i = 0; i <= 300; ++i) {

@@ -85,7 +85,7 @@ class ContactPatch {
     if constexpr (SweptTool<Tool>) {
       rows.push_back(row_of_closest(closest));
     } else {
-      rows.push_back(row_of(FeaturePair::vertex_face, normal_, closest.tool_point, closest.distance));
+      rows.push_back(closest.is_touching ? row_of_touching(closest) : row_of(FeaturePair::vertex_face, normal_, closest.tool_point, closest.distance));
     }
     return true;
   }
@@ -95,6 +95,8 @@ class ContactPatch {
   // Features whose own normal differs more from the contact's belong to another part of the surface.
   static constexpr Scalar least_cosine = Scalar(9) / 10;
   static constexpr Scalar cone_tolerance = Scalar(1e-6);
+  // A point so little beside a face counts as over it, or rounding would let it through between two faces [m].
+  static constexpr Scalar seam = Scalar(1e-9);
 
   static std::size_t index(int i) noexcept { return std::size_t(i); }
 
@@ -131,6 +133,35 @@ class ContactPatch {
     }
   }
 
+  /// Whether the plane that parts them is the triangle's.
+  bool is_own_plane() const noexcept { return faces_tool_ && (side_ * face_normal_ - normal_).norm() < cone_tolerance; }
+
+  /// Whether a point that may lie beside the triangle is over the flat part of the surface that it belongs to; past its rim nothing holds.
+  bool is_over_surface(const Vector& point) const noexcept {
+    constexpr int longest_walk = 16;
+    const auto corner = [this](int triangle, int k) {
+      return Vector(mesh_.vertex(mesh_.triangle(triangle)[index(k)]).template cast<Scalar>());
+    };
+    const Vector point_world = world_from_tool_ * (point - corners_.col(0)) + corner(triangle_, 0);
+    int triangle = triangle_;
+    for (int step = 0; step < longest_walk; ++step) {
+      const Vector normal = mesh_.normal(triangle).template cast<Scalar>();
+      int edge = -1;
+      Scalar farthest = -seam;
+      for (int k = 0; k < 3; ++k) {
+        const Scalar height = inward(corner(triangle, k), corner(triangle, (k + 1) % 3), point_world, normal);
+        if (height < farthest) {
+          farthest = height;
+          edge = k;
+        }
+      }
+      if (edge < 0) return true;
+      if (mesh_.topology().edge_convexity(triangle, edge) != Convexity::flat) return false;
+      triangle = mesh_.topology().neighbour(triangle, edge);
+    }
+    return true;
+  }
+
   void add_vertices_on_face(Rows& rows) noexcept {
     if (!has_face_ || !faces_tool_) return;
     const Vector normal = side_ * face_normal_;
@@ -140,7 +171,7 @@ class ContactPatch {
       if (std::abs(gap) > 2 * band_) continue;
       Scalar room = std::numeric_limits<Scalar>::infinity();
       for (int k = 0; k < 3; ++k) room = std::min(room, inward(corners_.col(k), corners_.col((k + 1) % 3), vertex, face_normal_));
-      if (room >= Scalar(0)) rows.push_back(row_of(FeaturePair::vertex_face, normal, vertex, gap, room));
+      if (room >= -seam) rows.push_back(row_of(FeaturePair::vertex_face, normal, vertex, gap, room));
     }
   }
 
@@ -201,7 +232,7 @@ class ContactPatch {
       for (std::size_t i = 0; i < loop.size(); ++i) {
         room = std::min(room, inward(tool_.vertex(loop[i]), tool_.vertex(loop[(i + 1) % loop.size()]), corner, outward));
       }
-      if (!(room >= Scalar(0)) || !is_clear_of_neighbours_at_corner(k, Vector(-outward))) continue;
+      if (!(room >= -seam) || !is_clear_of_neighbours_at_corner(k, Vector(-outward))) continue;
       rows.push_back(row_of(FeaturePair::face_vertex, Vector(-outward), corner, gap, room));
     }
   }
@@ -299,7 +330,7 @@ class ContactPatch {
   Row row_of(FeaturePair kind, const Vector& normal, const Vector& point, Scalar gap, Scalar room = Scalar(0)) const noexcept {
     Row row;
     row.kind = kind;
-    row.room = std::max(room, gap / 20);
+    row.room = std::max({room, gap / 20, seam});
     row.normal = world_from_tool_ * normal;
     row.arm = world_from_tool_ * (point - reference_);
     row.gap = gap;
@@ -321,6 +352,24 @@ class ContactPatch {
   {
     row.core_distance = std::max(row.gap + tool_.swept_radius(), tool_.swept_radius() / 2);
     row.room = std::max(row.room, row.core_distance / 20);
+  }
+
+  /// A row of shapes that touch along a plane. Which of the two the plane belongs to decides whether it turns with the tool, and where they are
+  /// in contact: another plane, a hair askew, would ask for what its neighbours forbid.
+  Row row_of_touching(const ClosestPoints<Scalar>& closest) const noexcept {
+    if (is_own_plane()) {
+      const Vector normal = side_ * face_normal_;
+      return row_of(FeaturePair::vertex_face, normal, closest.tool_point, normal.dot(closest.tool_point - corners_.col(0)));
+    }
+    for (const int f : incidence_.vertex_faces(near_[0])) {
+      const Vector normal = -tool_.face(f).normal;
+      if (!((normal - normal_).norm() < cone_tolerance)) continue;
+      Eigen::Index highest;
+      (normal.transpose() * corners_).maxCoeff(&highest);
+      const Vector corner = corners_.col(highest);
+      return row_of(FeaturePair::face_vertex, normal, corner, normal.dot(closest.tool_point - corner));
+    }
+    return row_of(FeaturePair::vertex_face, normal_, closest.tool_point, closest.distance);
   }
 
   /// The row of the closest points of a core, with its curvature from the features that they lie on.
@@ -357,7 +406,7 @@ class ContactPatch {
     const int count = int(used[0]) + int(used[1]) + int(used[2]);
     if (count == 1) return is_in_vertex_cone(used[0] ? 0 : used[1] ? 1 : 2, normal_);
     if (count == 2) return is_in_edge_cone(!used[2] ? 0 : !used[0] ? 1 : 2, normal_);
-    return true;
+    return count == 3 || !is_own_plane() || is_over_surface(closest.tool_point);
   }
   bool is_in_vertex_cone(int corner, const Vector& normal) const noexcept {
     const Vector3<MeshScalar> direction = (world_from_tool_ * normal).template cast<MeshScalar>();

@@ -19,6 +19,7 @@ struct WorkingPair {
   Scalar moved = Scalar(0);                          ///< length of motions since that was measured [m]
   int idle_ticks = 0;       ///< ticks since it held the tool or blocked a motion
   bool has_rows = false;    ///< rows of it took part in the last step
+  bool is_ghost = false;    ///< at the certified pose a neighbour was nearer, and its plane means nothing
   bool is_tight = false;    ///< there was no room for the margin at its last step
   bool keeps_ghost = false; ///< it blocked although its row looked like a ghost: give it a row all the same
 

@@ -4,27 +4,11 @@
 #include <algorithm>
 
 #include "feeler/core/scalar.hpp"
+#include "feeler/proximity/clearance.hpp"
 #include "feeler/proximity/motion.hpp"
 #include "feeler/proximity/separation.hpp"
 
 namespace feeler {
-
-/// The separations that a certificate insists on.
-template <class Scalar>
-struct Clearance {
-  Scalar kept = Scalar(1e-7);        ///< separation required wherever there is that much to begin with [m]
-  Scalar allowance = Scalar(5e-12);  ///< overlap accepted where there is no clearance at all; rounding, never accumulated [m]
-  Scalar touching = Scalar(1e-8);    ///< see `touching_distance` [m]
-  Scalar resolution = Scalar(2.5e-7);  ///< advance too small to look for [m]
-  Scalar probe = Scalar(1e-4);         ///< length of motion over which all blockers are wanted, not only the first [m]
-
-  /// Separation required along a motion that starts `start` away: tight fits may halve it, an overlap may stay but not grow.
-  Scalar required(Scalar start) const noexcept {
-    if (start >= 2 * kept) return std::min(kept, start);  // kept may be an overlap itself
-    if (start > allowance / 5) return start / 2;
-    return std::clamp(start, -2 * allowance, -allowance);
-  }
-};
 
 /// Result of `pass`: free of collision on [0, time]; `is_blocked` where that is not the whole motion.
 template <class Scalar>
@@ -140,7 +124,7 @@ Passage<typename Tool::Scalar> pass(const MovingTool<Tool>& moving, const Passed
     if (closest.is_touching) {
       // The core of a swept tool touches nothing before the tool is in it by the radius.
       if (SweptTool<Tool> || !touches) return Plane{Vector3<Scalar>::Zero(), -std::numeric_limits<Scalar>::infinity()};
-      if constexpr (!SweptTool<Tool>) closest = separation_of_touching(moving.tool(), in_tool, closest);
+      if constexpr (!SweptTool<Tool>) closest = separation_of_touching(moving.tool(), in_tool, closest, clearance.allowance);
     }
     return Plane{frame.rotation * closest.normal, closest.distance};
   };

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "feeler/core/scalar.hpp"
+#include "feeler/proximity/clearance.hpp"
 #include "feeler/proximity/motion.hpp"
 
 namespace feeler {
@@ -14,6 +15,7 @@ namespace feeler {
 ///
 /// A plane with normal n parts the tool from every y with n·y ≤ limit over the whole motion: with heights A, B of the tool's lowest
 /// point at the ends and a sagitta g, a slack s above the limit holds where √s + √(s + |A − B|) ≥ 2√g.
+/// Against a wall that the tool touches no plane keeps that distance; there `parts_closely` asks for no more than there was at the start.
 template <class ScalarType>
 class PlaneCache {
  public:
@@ -38,15 +40,21 @@ class PlaneCache {
     }
     normals_[index(place)] = normal;
     hits_[index(place)] = 4;
-    limits_[index(place)] = limit_of(normal, moving, start, end, kept);
+    measure(place, moving, start, end, kept);
     return place;
   }
 
-  /// Finds the limits for a motion, and forgets half of the hits.
+  /// Whether a plane parts the tool over the whole motion from what is up to `height` high along it, though it may not be `kept` away.
+  bool parts_closely(int i, Scalar height, const Clearance<Scalar>& clearance) const noexcept {
+    const Scalar slack = least_[index(i)] - height;
+    return slack >= -2 * clearance.allowance && slack >= clearance.required(starts_[index(i)] - height);
+  }
+
+  /// Finds the limits for a motion.
   template <class Moving>
   void prepare(const Moving& moving, const MotionFrame<Scalar>& start, const MotionFrame<Scalar>& end,
                Scalar kept) noexcept {
-    for (int i = 0; i < size_; ++i) limits_[index(i)] = limit_of(normals_[index(i)], moving, start, end, kept);
+    for (int i = 0; i < size_; ++i) measure(i, moving, start, end, kept);
   }
   /// Halves the hits and brings the most useful planes to the front.
   void age() noexcept {
@@ -56,6 +64,8 @@ class PlaneCache {
         std::swap(hits_[index(k)], hits_[index(k - 1)]);
         std::swap(normals_[index(k)], normals_[index(k - 1)]);
         std::swap(limits_[index(k)], limits_[index(k - 1)]);
+        std::swap(starts_[index(k)], starts_[index(k - 1)]);
+        std::swap(least_[index(k)], least_[index(k - 1)]);
       }
     }
   }
@@ -63,25 +73,37 @@ class PlaneCache {
   template <class Moving>
   static Scalar limit_of(const Vector3<Scalar>& normal, const Moving& moving, const MotionFrame<Scalar>& start,
                          const MotionFrame<Scalar>& end, Scalar kept) noexcept {
+    return least_height(moving.lowest(normal, start), moving.lowest(normal, end), moving.sagitta(normal, end.time - start.time)) - kept;
+  }
+
+ private:
+  static std::size_t index(int i) noexcept { return std::size_t(i); }
+
+  template <class Moving>
+  void measure(int i, const Moving& moving, const MotionFrame<Scalar>& start, const MotionFrame<Scalar>& end, Scalar kept) noexcept {
+    const Vector3<Scalar>& normal = normals_[index(i)];
+    starts_[index(i)] = moving.lowest(normal, start);
+    least_[index(i)] = least_height(starts_[index(i)], moving.lowest(normal, end), moving.sagitta(normal, end.time - start.time));
+    limits_[index(i)] = least_[index(i)] - kept;
+  }
+
+  /// Below which the tool certainly does not come.
+  static Scalar least_height(Scalar at_start, Scalar at_end, Scalar sagitta) noexcept {
     using std::sqrt;
-    const Scalar at_start = moving.lowest(normal, start);
-    const Scalar at_end = moving.lowest(normal, end);
-    const Scalar sagitta = moving.sagitta(normal, end.time - start.time);
     const Scalar difference = at_start < at_end ? at_end - at_start : at_start - at_end;
     Scalar slack(0);
     if (difference < 4 * sagitta) {
       const Scalar root = sqrt(sagitta) - difference / (4 * sqrt(sagitta));
       slack = root * root;
     }
-    return (at_start < at_end ? at_start : at_end) - slack - kept;
+    return (at_start < at_end ? at_start : at_end) - slack;
   }
-
- private:
-  static std::size_t index(int i) noexcept { return std::size_t(i); }
 
   int size_ = 0;
   std::array<Vector3<Scalar>, capacity> normals_;
   std::array<Scalar, capacity> limits_;
+  std::array<Scalar, capacity> starts_;  // height of the tool's lowest point at the start
+  std::array<Scalar, capacity> least_;   // below which it does not come
   std::array<int, capacity> hits_{};
 };
 

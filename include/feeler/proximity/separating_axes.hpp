@@ -1,6 +1,8 @@
 // The best separating plane of a convex tool and a triangle that touch or overlap, by trying every candidate axis.
 #pragma once
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -35,24 +37,27 @@ typename Tool::Scalar separation_along(const Tool& tool, const Matrix3<typename 
 
 /// Maximises the separation over the face normals of the Minkowski difference: the triangle's normal, the tool's face normals and the
 /// cross products of their edges. Exact for shapes that touch or overlap (the separating axis theorem); for shapes apart it
-/// may fall short of the distance. The first axis along which they do not overlap is taken, faces before edges, so that flat contacts
-/// keep the normal of the face.
+/// may fall short of the distance. The first axis along which they overlap by no more than is accepted is taken, faces before edges, so that
+/// flat contacts keep the normal of the face.
+/// @param accepted  overlap that needs no better axis [m]; rounding is accepted anyway
 /// @cost  two support calls an axis: at most 13 axes for a box, some hundreds for a hull of 32 points; one where a face touches
 template <ConvexTool Tool>
 SeparatingAxis<typename Tool::Scalar> best_separating_axis(const Tool& tool,
-                                                           const Matrix3<typename Tool::Scalar>& triangle) noexcept {
+                                                           const Matrix3<typename Tool::Scalar>& triangle,
+                                                           typename Tool::Scalar accepted = 0) noexcept {
   using Scalar = typename Tool::Scalar;
   using std::sqrt;
   constexpr Scalar epsilon = std::numeric_limits<Scalar>::epsilon();
   SeparatingAxis<Scalar> best;
   const Scalar size = triangle.cwiseAbs().maxCoeff() + tool.vertex(0).cwiseAbs().maxCoeff();
+  const Scalar enough = -std::max(accepted, 4 * epsilon * size);
   Scalar handicap = Scalar(0);
   const auto attempt = [&](const Vector3<Scalar>& normal) {
     for (const Vector3<Scalar>& n : {normal, Vector3<Scalar>(-normal)}) {
       const Scalar distance = separation_along(tool, triangle, n);
       if (distance > best.distance + handicap) best = {n, distance};
     }
-    return best.distance >= -4 * epsilon * size;
+    return best.distance >= enough;
   };
   std::array<Vector3<Scalar>, 3> edges;
   for (int k = 0; k < 3; ++k) edges[std::size_t(k)] = (triangle.col((k + 1) % 3) - triangle.col(k)).stableNormalized();

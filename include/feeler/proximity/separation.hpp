@@ -18,12 +18,14 @@ Scalar touching_distance(Scalar size) noexcept {
 
 /// Separating plane of a tool and a triangle that touch or overlap, by trying every candidate axis; the distance is negative by the least
 /// translation that parts them.
-/// @param closest  what `gjk` said of them
+/// @param closest   what `gjk` said of them
+/// @param accepted  overlap that needs no better plane [m]
 template <ConvexTool Tool>
 ClosestPoints<typename Tool::Scalar> separation_of_touching(const Tool& tool, const Matrix3<typename Tool::Scalar>& triangle,
-                                                            ClosestPoints<typename Tool::Scalar> closest) noexcept {
+                                                            ClosestPoints<typename Tool::Scalar> closest,
+                                                            typename Tool::Scalar accepted = 0) noexcept {
   using Scalar = typename Tool::Scalar;
-  const SeparatingAxis<Scalar> axis = best_separating_axis(tool, triangle);
+  const SeparatingAxis<Scalar> axis = best_separating_axis(tool, triangle, accepted);
   // A segment along a degenerate triangle has no axis at all; then the last direction of the closest points stands.
   if (axis.distance == -std::numeric_limits<Scalar>::infinity()) {
     closest.distance = separation_along(tool, triangle, closest.normal);
@@ -39,8 +41,9 @@ ClosestPoints<typename Tool::Scalar> separation_of_touching(const Tool& tool, co
 
 template <SweptTool Tool>
 ClosestPoints<typename Tool::Scalar> separation_of_touching(const Tool& tool, const Matrix3<typename Tool::Scalar>& triangle,
-                                                            ClosestPoints<typename Tool::Scalar> closest) noexcept {
-  closest = separation_of_touching(tool.core(), triangle, closest);
+                                                            ClosestPoints<typename Tool::Scalar> closest,
+                                                            typename Tool::Scalar accepted = 0) noexcept {
+  closest = separation_of_touching(tool.core(), triangle, closest, accepted);
   closest.distance -= tool.swept_radius();
   return closest;
 }

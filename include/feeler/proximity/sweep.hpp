@@ -79,6 +79,7 @@ class Sweep {
     set_end(moving, until, mesh);
     planes_.age();
     for (const KnownTriangle<Scalar>& pair : known) {
+      if (passes(pair.state.corners)) continue;
       examine(pair.triangle, pair.state, moving, mesh, result, work);
       if (work > limit) return give_up(result);
     }
@@ -218,7 +219,8 @@ class Sweep {
 
   bool passes(const Matrix3<Scalar>& corners) noexcept {
     for (int i = 0; i < planes_.size(); ++i) {
-      if (detail::highest(corners, planes_.normal(i)) <= planes_.limit(i)) {
+      const Scalar height = detail::highest(corners, planes_.normal(i));
+      if (height <= planes_.limit(i) || planes_.parts_closely(i, height, clearance_)) {
         planes_.count_hit(i);
         return true;
       }

@@ -9,6 +9,7 @@
 #include "feeler/contact/contact_patch.hpp"
 #include "feeler/contact/working_set.hpp"
 #include "feeler/core/status.hpp"
+#include "feeler/object/triangle_normal.hpp"
 #include "feeler/render/contact_method.hpp"
 #include "feeler/render/motion_certificate.hpp"
 #include "feeler/render/rendered_scene.hpp"
@@ -240,6 +241,7 @@ class ClosestFeaturesFollower {
       }
       ContactPatch<Piece, MeshScalar> patch(scene.piece(pair.piece), scene.incidence(pair.piece), scene.object(), axes, scene.reference(), band, assumes_valleys);
       pair.has_rows = patch.find(pair.triangle, corners, closest, pair.keeps_ghost, rows);
+      if (is_certified) pair.is_ghost = !pair.has_rows;
       for (Row& row : rows) {
         row.piece = pair.piece;
         row.triangle = pair.triangle;
@@ -257,6 +259,18 @@ class ClosestFeaturesFollower {
     }
   }
 
+  /// The plane of a triangle, where it parts the tool from it but for a touch, and better than the one given.
+  static void prefer_own_plane(const Piece& piece, const Matrix3<Scalar>& corners, Scalar touching, ClosestPoints<Scalar>& closest) noexcept {
+    const Vector3<Scalar> normal = triangle_normal<Scalar>(corners.col(0), corners.col(1), corners.col(2));
+    if (normal.isZero()) return;
+    for (const Vector3<Scalar>& own : {normal, Vector3<Scalar>(-normal)}) {
+      const Scalar distance = separation_along(piece, corners, own);
+      if (!(distance > -touching) || !(distance > closest.distance)) continue;
+      closest.normal = own;
+      closest.distance = distance;
+    }
+  }
+
   /// Closest points of a pair. On the way the tool may overlap it; then the plane it had at the certified pose says which features meet.
   static ClosestPoints<Scalar> closest_points(const Scene& scene, const Matrix3<Scalar>& corners,
                                               const Matrix3<Scalar>& axes, const Pair& pair,
@@ -265,10 +279,13 @@ class ClosestFeaturesFollower {
     ClosestPoints<Scalar> closest = gjk(piece, corners, pair.features, scene.clearance().touching);
     if (!closest.is_touching) return closest;
     if constexpr (!SweptTool<Piece>) {  // whose core touches nothing but on the way, and there by far
-      if (is_certified || pair.slack < 2 * scene.clearance().touching) return separation_of_touching(piece, corners, closest);
+      if (is_certified || pair.slack < 2 * scene.clearance().touching) {
+        return separation_of_touching(piece, corners, closest, scene.clearance().allowance);
+      }
     }
     closest.normal = axes.transpose() * pair.normal;
     closest.distance = separation_along(piece, corners, closest.normal);
+    if (pair.is_ghost) prefer_own_plane(piece, corners, scene.clearance().touching, closest);
     closest.features = {};
     closest.tool_point = piece.vertex(piece.support(Vector3<Scalar>(-closest.normal)));
     return closest;

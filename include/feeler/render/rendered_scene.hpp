@@ -8,7 +8,8 @@
 
 #include "feeler/object/triangle_mesh.hpp"
 #include "feeler/proximity/motion.hpp"
-#include "feeler/proximity/passage.hpp"
+#include "feeler/proximity/clearance.hpp"
+#include "feeler/proximity/separation.hpp"
 #include "feeler/render/idle_turns.hpp"
 #include "feeler/render/settings.hpp"
 #include "feeler/tool/rigid_tool.hpp"
@@ -43,8 +44,7 @@ class RenderedScene {
         tool_(detail::working_tool<Scalar>(tool)),
         settings_(settings),
         reference_(settings.reference_point.template cast<Scalar>()),
-        metric_((settings.metric ? *settings.metric : Metric<MeshScalar>::proportional_to(settings.stiffness))
-                    .template cast<Scalar>()),
+        metric_(settings.metric_in_use().template cast<Scalar>()),
         idle_turns_(tool_, reference_, metric_) {
     Scalar surface = Scalar(0);
     for (int i = 0; i < piece_count(); ++i) {

@@ -182,10 +182,7 @@ noexcept {
   if (status != Status::converged && status != Status::unconverged) return result;
 
   const auto& settings = renderer.settings();
-  using Given = Metric<typename Tool::Scalar>;
-  const Metric<Scalar> metric =
-      (settings.metric ? *settings.metric : Given::proportional_to(settings.stiffness))
-          .template cast<Scalar>();
+  const Metric<Scalar> metric = settings.metric_in_use().template cast<Scalar>();
   const Vector3<Scalar> stiffness = settings.stiffness.translational.template cast<Scalar>();
   const Vector3<Scalar> rotational_stiffness = settings.stiffness.rotational.template cast<Scalar>();
   const Vector3<Scalar> phi =

@@ -1,0 +1,27 @@
+// The distances that a certificate keeps between tool and object.
+#pragma once
+
+#include <algorithm>
+
+#include "feeler/core/scalar.hpp"
+
+namespace feeler {
+
+/// The separations that a certificate insists on.
+template <class Scalar>
+struct Clearance {
+  Scalar kept = Scalar(1e-7);        ///< separation required wherever there is that much to begin with [m]
+  Scalar allowance = Scalar(5e-12);  ///< overlap accepted where there is no clearance at all; rounding, never accumulated [m]
+  Scalar touching = Scalar(1e-8);    ///< see `touching_distance` [m]
+  Scalar resolution = Scalar(2.5e-7);  ///< advance too small to look for [m]
+  Scalar probe = Scalar(1e-4);         ///< length of motion over which all blockers are wanted, not only the first [m]
+
+  /// Separation required along a motion that starts `start` away: tight fits may halve it, an overlap may stay but not grow.
+  Scalar required(Scalar start) const noexcept {
+    if (start >= 2 * kept) return std::min(kept, start);  // kept may be an overlap itself
+    if (start > allowance / 5) return start / 2;
+    return std::clamp(start, -2 * allowance, -allowance);
+  }
+};
+
+}  // namespace feeler

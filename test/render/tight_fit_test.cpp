@@ -1,0 +1,103 @@
+// A splined shaft in its hole, from a loose fit to a perfect one: it slides as freely as the device, and gives way to nothing else.
+#include <boost/test/unit_test.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "scenes/spline.hpp"
+#include "support/rendering.hpp"
+
+BOOST_AUTO_TEST_SUITE(tight_fits)
+
+using namespace feeler;
+using namespace feeler::test;
+
+namespace {
+
+/// A shaft through its hole, longer than it, pushed sideways by millimetres while the device slides it along.
+struct PressedShaft {
+  static constexpr double middle = -0.01;  // of the hole, along its axis [m]
+  using Shaft = CompoundTool<ConvexPolytope<double>>;
+
+  explicit PressedShaft(double clearance)
+      : scene(scenes::spline(clearance)),
+        object(scene.vertices, scene.triangles),
+        renderer(object, Shaft::hulls_of(scene.pieces), scene.settings()) {
+    BOOST_TEST((renderer.reset(scenes::pose_of({0, 0, 0}, {0, 0, middle})) == Status::converged));
+  }
+
+  /// The device at a millisecond of its motion.
+  static Pose<double> device(int tick) { return scenes::pose_of({0, 0, 0}, {0.003, 0.002, middle + 0.004 * std::sin(0.008 * tick)}); }
+
+  scenes::CompoundScene scene;
+  TriangleMesh<double> object;
+  HapticRenderer<Shaft> renderer;
+};
+
+constexpr double margin = 1e-6;
+constexpr int first_ticks = 10;
+
+}  // namespace
+
+BOOST_AUTO_TEST_CASE(a_shaft_slides_like_the_device_and_stays_in_the_corner_it_is_pushed_into) {
+  for (const double clearance : {1e-3, 1e-4, 1e-5, 1e-6, 0.0}) {
+    BOOST_TEST_CONTEXT("clearance " << clearance) {
+      PressedShaft shaft(clearance);
+      double worst_slide = 0, low = 1, high = -1, worst_corner = 0, worst_turn = 0;
+      int unconverged = 0;
+      const int ticks = ticks_to_run(800);
+      for (int i = 1; i <= ticks; ++i) {
+        const Pose<double> device = PressedShaft::device(i);
+        const auto& tick = shaft.renderer.update(device);
+        if (i <= first_ticks) continue;
+        const Vector3<double>& p = tick.graphic_pose.translation;
+        worst_slide = std::max(worst_slide, std::abs(p.z() - device.translation.z()));
+        worst_turn = std::max(worst_turn, log_rotation(tick.graphic_pose.rotation).norm());
+        low = std::min(low, p.x());
+        high = std::max(high, p.x());
+        // Side walls of the teeth face in 8 directions, so the shaft has an octagon to move in, and ends in the corner at 22.5 degrees.
+        const double play = std::max(clearance - margin, 0.0);
+        worst_corner = std::max({worst_corner, std::abs(p.x() - play), std::abs(p.y() - play * std::tan(std::numbers::pi / 8))});
+        unconverged += tick.converged() ? 0 : 1;
+      }
+      BOOST_TEST_MESSAGE("clearance " << clearance << ": slides " << worst_slide << " m behind the device, held to " << high - low << " m, " << worst_corner
+                                      << " m from the corner, turned by " << worst_turn << "; " << unconverged << " unconverged");
+      BOOST_TEST(unconverged == 0);
+      BOOST_TEST(worst_slide <= 1e-9 * 0.008);
+      BOOST_TEST(high - low <= 1e-11);
+      BOOST_TEST(worst_corner <= (clearance > 2 * margin ? 1e-10 : clearance + no_clearance_depth));
+      BOOST_TEST(worst_turn <= 1e-9);
+    }
+  }
+}
+
+BOOST_AUTO_TEST_CASE(a_shaft_that_is_held_does_not_creep) {
+  for (const double clearance : {1e-3, 1e-4, 1e-5, 1e-6, 0.0}) {
+    BOOST_TEST_CONTEXT("clearance " << clearance) {
+      PressedShaft shaft(clearance);
+      const Pose<double> twisted = scenes::pose_of({0.1, -0.05, 0.2}, {0.003, 0.002, PressedShaft::middle});
+      for (int i = 0; i < ticks_to_run(200, 4); ++i) shaft.renderer.update(twisted);
+      const Pose<double> rest = shaft.renderer.tick().graphic_pose;
+      BOOST_TEST(shaft.renderer.tick().converged());
+      for (int i = 0; i < ticks_to_run(1000); ++i) shaft.renderer.update(twisted);
+      BOOST_TEST(pose_error(rest, shaft.renderer.tick().graphic_pose).at(0.018) <= 1e-10);
+    }
+  }
+}
+
+BOOST_AUTO_TEST_CASE(the_first_touch_takes_no_longer_than_a_few_ticks) {
+  for (const double clearance : {1e-3, 1e-5, 0.0}) {
+    BOOST_TEST_CONTEXT("clearance " << clearance) {
+      PressedShaft shaft(clearance);
+      int ticks = 0, most_work = 0;
+      do {
+        most_work = std::max(most_work, shaft.renderer.update(PressedShaft::device(1)).work);
+      } while (++ticks < 50 && !shaft.renderer.tick().converged());
+      BOOST_TEST_MESSAGE("clearance " << clearance << ": at rest after " << ticks << " ticks of at most " << most_work << " work");
+      BOOST_TEST(ticks <= first_ticks);
+    }
+  }
+}
+
+BOOST_AUTO_TEST_SUITE_END()
