@@ -1,0 +1,89 @@
+// Tells folds: the pose that held the tool ceased to be nearest, and the tool slid on to another one.
+#pragma once
+
+#include <cmath>
+
+#include "feeler/core/scalar.hpp"
+#include "feeler/core/status.hpp"
+#include "feeler/render/settings.hpp"
+#include "feeler/render/tick.hpp"
+#include "feeler/spatial/metric.hpp"
+#include "feeler/spatial/pose.hpp"
+#include "feeler/spatial/twist.hpp"
+
+namespace feeler {
+
+/// A local solution that vanished, and the one that the tool slid to.
+template <RealScalar ScalarType>
+struct Fold {
+  using Scalar = ScalarType;
+
+  Pose<Scalar> from;        ///< the tool frame before
+  Pose<Scalar> to;          ///< and where it came to rest
+  Scalar jump = Scalar(0);  ///< how much farther the tool went than the device, in the metric of the settings [m]
+  int ticks = 0;            ///< that it took
+};
+
+/// Watches a renderer for folds. It reads ticks and changes nothing.
+///
+/// Between folds the pose is a continuous function of the device, and the tool goes hardly farther than the device did. Where the local
+/// minimum vanishes, as at the edge of a step, it goes on to the next one however slow the hand is. Ways are added up until a tick
+/// has converged, so that one fold is told once, whatever the work budget spreads it over.
+template <RealScalar ScalarType>
+class FoldDetector {
+ public:
+  using Scalar = ScalarType;
+  /// The tool may go so many times as far as the device without a fold: past a corner that it turns about it is faster than the hand.
+  static constexpr Scalar most_gain = Scalar(4);
+
+  /// @param least_jump  shorter ones are not told [m]
+  explicit FoldDetector(const Settings<Scalar>& settings, Scalar least_jump = Scalar(1e-4)) noexcept
+      : reference_(settings.reference_point), metric_(settings.metric_in_use()), least_jump_(least_jump) {}
+
+  /// Starts anew, after `HapticRenderer::reset`.
+  void reset(const Pose<Scalar>& haptic_pose, const Pose<Scalar>& graphic_pose) noexcept {
+    haptic_ = haptic_pose;
+    fold_.to = graphic_pose;
+    begin();
+  }
+
+  /// To be called after each tick.
+  /// @return  the fold that ended with this tick, or null; valid until the next call
+  const Fold<Scalar>* observe(const Pose<Scalar>& haptic_pose, const Tick<Scalar>& tick) noexcept {
+    if (tick.status != Status::converged && tick.status != Status::unconverged) return nullptr;
+    if (has_ended_) begin();
+    device_way_ += length(haptic_, haptic_pose);
+    haptic_ = haptic_pose;
+    for (const Pose<Scalar>& pose : tick.path) {
+      tool_way_ += length(fold_.to, pose);
+      fold_.to = pose;
+    }
+    ++fold_.ticks;
+    has_ended_ = tick.converged();
+    fold_.jump = tool_way_ - device_way_;
+    return has_ended_ && tool_way_ > most_gain * device_way_ + least_jump_ ? &fold_ : nullptr;
+  }
+
+ private:
+  void begin() noexcept {
+    fold_.from = fold_.to;
+    fold_.ticks = 0;
+    device_way_ = tool_way_ = Scalar(0);
+    has_ended_ = false;
+  }
+
+  Scalar length(const Pose<Scalar>& a, const Pose<Scalar>& b) const noexcept {
+    using std::sqrt;
+    return sqrt(2 * metric_.energy(motion_between(Pose<Scalar>{a * reference_, a.rotation}, Pose<Scalar>{b * reference_, b.rotation})));
+  }
+
+  Vector3<Scalar> reference_;
+  Metric<Scalar> metric_;
+  Scalar least_jump_;
+  Pose<Scalar> haptic_;
+  Fold<Scalar> fold_;
+  Scalar device_way_ = Scalar(0), tool_way_ = Scalar(0);  // since the last converged tick
+  bool has_ended_ = false;
+};
+
+}  // namespace feeler
