@@ -7,13 +7,12 @@
 #include <limits>
 #include <memory>
 #include <random>
-#include <stdexcept>
-#include <string>
 #include <utility>
 #include <vector>
 
 #include "feeler/object/normal_cone.hpp"
 #include "feeler/object/triangle_mesh.hpp"
+#include "support/refusal.hpp"
 
 BOOST_AUTO_TEST_SUITE(triangle_mesh)
 
@@ -21,6 +20,8 @@ using feeler::Convexity;
 using feeler::MeshTopology;
 using feeler::Points;
 using feeler::Triangles;
+using feeler_test::contains;
+using feeler_test::refusal;
 using Mesh = feeler::TriangleMesh<double>;
 using Vector = feeler::Vector3<double>;
 
@@ -97,19 +98,6 @@ double distance(const Mesh& mesh, const Vector& p) {
     if (is_over) best = std::min(best, std::abs(n.dot(p - c.col(0))));
   }
   return best;
-}
-
-template <class Build>
-std::string refusal(const Build& build) {
-  try {
-    build();
-  } catch (const std::invalid_argument& e) {
-    return e.what();
-  }
-  return "accepted";
-}
-bool contains(const std::string& text, const char* part) {
-  return text.find(part) != std::string::npos;
 }
 }  // namespace
 

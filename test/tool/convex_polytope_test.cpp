@@ -5,16 +5,17 @@
 #include <cmath>
 #include <limits>
 #include <random>
-#include <stdexcept>
 #include <string>
 #include <vector>
 
 #include "feeler/tool/convex_polytope.hpp"
+#include "support/refusal.hpp"
 #include "support/tool_laws.hpp"
 
 BOOST_AUTO_TEST_SUITE(convex_polytope)
 
 using feeler::Points;
+using feeler_test::contains;
 using Vector = feeler::Vector3<double>;
 using Polytope = feeler::ConvexPolytope<double>;
 
@@ -82,16 +83,8 @@ void check_hull(const std::vector<Vector>& points) {
   check_hull(Polytope::hull_of(rows(points)), rows(points));
 }
 
-std::string refusal(const std::vector<Vector>& points) {
-  try {
-    Polytope::hull_of(rows(points));
-  } catch (const std::invalid_argument& e) {
-    return e.what();
-  }
-  return "accepted";
-}
-bool contains(const std::string& text, const char* part) {
-  return text.find(part) != std::string::npos;
+std::string refusal_of(const std::vector<Vector>& points) {
+  return feeler_test::refusal([&] { Polytope::hull_of(rows(points)); });
 }
 }  // namespace
 
@@ -237,11 +230,11 @@ BOOST_AUTO_TEST_CASE(thousands_of_points_on_a_turned_cube_leave_eight_vertices) 
 BOOST_AUTO_TEST_CASE(points_without_a_hull_are_refused_with_a_sentence) {
   const double nan = std::numeric_limits<double>::quiet_NaN();
   auto points = cube_corners();
-  BOOST_TEST(contains(refusal({points[0], points[1], points[2]}), "3 points have no volume"));
-  BOOST_TEST(contains(refusal({}), "0 points have no volume"));
+  BOOST_TEST(contains(refusal_of({points[0], points[1], points[2]}), "3 points have no volume"));
+  BOOST_TEST(contains(refusal_of({}), "0 points have no volume"));
   points[5].y() = nan;
-  BOOST_TEST(contains(refusal(points), "point 5 has a NaN"));
-  BOOST_TEST(contains(refusal(std::vector<Vector>(9, Vector(1, 2, 3))), "all points are equal"));
+  BOOST_TEST(contains(refusal_of(points), "point 5 has a NaN"));
+  BOOST_TEST(contains(refusal_of(std::vector<Vector>(9, Vector(1, 2, 3))), "all points are equal"));
   std::mt19937 bits(13);
   for (const double scale : {1e-6, 1.0, 1e6}) {
     std::vector<Vector> line, plane;
@@ -250,10 +243,10 @@ BOOST_AUTO_TEST_CASE(points_without_a_hull_are_refused_with_a_sentence) {
       line.push_back(scale * (origin + unit(bits) * u));
       plane.push_back(scale * (origin + unit(bits) * u + unit(bits) * v));
     }
-    BOOST_TEST(contains(refusal(line), "on one line"));
-    BOOST_TEST(contains(refusal(plane), "in one plane"));
+    BOOST_TEST(contains(refusal_of(line), "on one line"));
+    BOOST_TEST(contains(refusal_of(plane), "in one plane"));
   }
-  BOOST_TEST(contains(refusal(ellipsoid(300, Vector(1, 1, 1), 2)), "300 vertices and may have 256"));
+  BOOST_TEST(contains(refusal_of(ellipsoid(300, Vector(1, 1, 1), 2)), "300 vertices and may have 256"));
 }
 
 BOOST_AUTO_TEST_SUITE_END()

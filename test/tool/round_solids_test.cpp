@@ -5,15 +5,16 @@
 #include <algorithm>
 #include <cmath>
 #include <random>
-#include <stdexcept>
-#include <string>
 
+#include "support/refusal.hpp"
 #include "support/tool_laws.hpp"
 
 BOOST_AUTO_TEST_SUITE(round_solids)
 
 using feeler::ConvexPolytope;
 using feeler::Facets;
+using feeler_test::contains;
+using feeler_test::refusal;
 using Vector = feeler::Vector3<double>;
 
 namespace {
@@ -34,17 +35,6 @@ Excess excess_of(const ConvexPolytope<double>& tool, const RoundSupport& round) 
   }
   return excess;
 }
-
-template <class Build>
-std::string refusal(const Build& build) {
-  try {
-    build();
-  } catch (const std::invalid_argument& e) {
-    return e.what();
-  }
-  return "accepted";
-}
-bool contains(const std::string& text, const char* part) { return text.find(part) != std::string::npos; }
 
 }  // namespace
 

@@ -1,33 +1,19 @@
 #include <boost/test/unit_test.hpp>
 
 #include <limits>
-#include <stdexcept>
-#include <string>
 
 #include "feeler/tool/box.hpp"
 #include "feeler/tool/segment.hpp"
+#include "support/refusal.hpp"
 #include "support/tool_laws.hpp"
 
 BOOST_AUTO_TEST_SUITE(simple_tools)
 
 using feeler::Box;
 using feeler::Segment;
+using feeler_test::contains;
+using feeler_test::refusal;
 using Vector = feeler::Vector3<double>;
-
-namespace {
-template <class Build>
-std::string refusal(const Build& build) {
-  try {
-    build();
-  } catch (const std::invalid_argument& e) {
-    return e.what();
-  }
-  return "accepted";
-}
-bool contains(const std::string& text, const char* part) {
-  return text.find(part) != std::string::npos;
-}
-}  // namespace
 
 BOOST_AUTO_TEST_CASE(box_and_segment_obey_the_laws_in_every_scalar) {
   for (const Vector& h : {Vector(1, 2, 3), Vector(1e-6, 1, 1e6), Vector(0.01, 0.01, 0.01)}) {

@@ -3,10 +3,9 @@
 #include <boost/test/unit_test.hpp>
 
 #include <limits>
-#include <stdexcept>
-#include <string>
 #include <type_traits>
 
+#include "support/refusal.hpp"
 #include "support/tool_laws.hpp"
 
 BOOST_AUTO_TEST_SUITE(sphere_swept)
@@ -20,22 +19,11 @@ using feeler::RoundedPolytope;
 using feeler::Segment;
 using feeler::Sphere;
 using feeler::SphereSwept;
+using feeler_test::contains;
+using feeler_test::refusal;
 using Vector = feeler::Vector3<double>;
 
 namespace {
-template <class Build>
-std::string refusal(const Build& build) {
-  try {
-    build();
-  } catch (const std::invalid_argument& e) {
-    return e.what();
-  }
-  return "accepted";
-}
-bool contains(const std::string& text, const char* part) {
-  return text.find(part) != std::string::npos;
-}
-
 template <class Tool>
 void check_in_every_scalar(const Tool& tool, bool solid) {
   feeler_test::check_tool_laws(tool, solid);
