@@ -5,6 +5,7 @@
 #include <functional>
 #include <random>
 
+#include "support/finite_differences.hpp"
 #include "support/random_geometry.hpp"
 
 BOOST_AUTO_TEST_SUITE(contact_row)
@@ -15,18 +16,10 @@ using namespace feeler_test;
 
 namespace {
 
-using Real = long double;
-using Wide = Eigen::Matrix<Real, 3, 1>;
-using Wide6 = Eigen::Matrix<Real, 6, 1>;
+using Real = WideNumber;
+using Wide = WidePoint;
+using Wide6 = WideStep;
 using Separation = std::function<Real(const Wide6&)>;
-
-/// Rotation by a rotation vector, by Rodrigues' formula.
-Wide turned(const Wide& w, const Wide& v) {
-  const Real angle = w.norm();
-  if (angle == 0) return v;
-  const Wide axis = w / angle;
-  return std::cos(angle) * v + std::sin(angle) * axis.cross(v) + (1 - std::cos(angle)) * axis.dot(v) * axis;
-}
 
 struct Contact {
   ContactRow<double> row;
@@ -80,30 +73,14 @@ Contact edge_edge(std::mt19937& bits, double gap) {
 }
 
 void check_gradient(const Contact& contact, Real tolerance) {
-  const Real h = 1e-5L;
-  const auto gradient = contact.row.gradient();
   BOOST_TEST(std::abs(contact.separation(Wide6::Zero()) - Real(contact.row.gap)) < 1e-15L);
-  for (int i = 0; i < 6; ++i) {
-    const Wide6 step = Wide6::Unit(i) * h;
-    const Real slope = (contact.separation(step) - contact.separation(-step)) / (2 * h);
-    BOOST_TEST(std::abs(slope - Real(gradient[i])) < tolerance);
-  }
+  const Wide6 slopes = gradient_by_differences(contact.separation);
+  const auto gradient = contact.row.gradient();
+  for (int i = 0; i < 6; ++i) BOOST_TEST(std::abs(slopes[i] - Real(gradient[i])) < tolerance);
 }
 
-/// @return the largest difference of an element
 Real curvature_error(const Contact& contact) {
-  const Real h = 1e-5L;  // differences err by h² and by rounding / h², both about 1e-9
-  const auto curvature = contact.row.curvature();
-  Real worst = 0;
-  for (int i = 0; i < 6; ++i)
-    for (int k = 0; k < 6; ++k) {
-      const Wide6 a = Wide6::Unit(i) * h, b = Wide6::Unit(k) * h;
-      const Real second = (contact.separation(a + b) - contact.separation(a - b) - contact.separation(b - a) +
-                           contact.separation(-a - b)) /
-                          (4 * h * h);
-      worst = std::max(worst, std::abs(second - Real(curvature(i, k))));
-    }
-  return worst;
+  return largest_difference(curvature_by_differences(contact.separation), contact.row.curvature());
 }
 
 }  // namespace

@@ -10,6 +10,7 @@
 #include "feeler/spatial/pose.hpp"
 #include "feeler/tool/sphere_swept.hpp"
 #include "feeler/tool/tool_incidence.hpp"
+#include "support/finite_differences.hpp"
 #include "support/random_tools.hpp"
 
 BOOST_AUTO_TEST_SUITE(swept_contact_row)
@@ -19,16 +20,9 @@ using namespace feeler_test;
 
 namespace {
 
-using Real = long double;
-using Wide = Eigen::Matrix<Real, 3, 1>;
-using Wide6 = Eigen::Matrix<Real, 6, 1>;
-
-Wide turned(const Wide& w, const Wide& v) {
-  const Real angle = w.norm();
-  if (angle == 0) return v;
-  const Wide axis = w / angle;
-  return std::cos(angle) * v + std::sin(angle) * axis.cross(v) + (1 - std::cos(angle)) * axis.dot(v) * axis;
-}
+using Real = WideNumber;
+using Wide = WidePoint;
+using Wide6 = WideStep;
 
 /// A point or a line of the core and a point or a line of the object, and the radius of the ball.
 struct Pair {
@@ -97,19 +91,11 @@ BOOST_AUTO_TEST_CASE(gradient_and_curvature_of_points_and_lines_are_derivatives_
     for (int i = 0; i < 300; ++i) {
       const Pair pair = random_pair(bits, (kind & 1) != 0, (kind & 2) != 0);
       const SweptContactRow<double> row = pair.row();
-      const Real h = 1e-5L;
-      const auto gradient = row.gradient();
+      const auto separation = [&](const Wide6& step) { return pair.separation(step); };
       const auto curvature = row.curvature();
       BOOST_TEST((curvature - curvature.transpose()).norm() < 1e-12);
-      for (int a = 0; a < 6; ++a) {
-        const Wide6 da = Wide6::Unit(a) * h;
-        worst_gradient = std::max(worst_gradient, std::abs((pair.separation(da) - pair.separation(-da)) / (2 * h) - Real(gradient[a])));
-        for (int b = 0; b < 6; ++b) {
-          const Wide6 db = Wide6::Unit(b) * h;
-          const Real second = (pair.separation(da + db) - pair.separation(da - db) - pair.separation(db - da) + pair.separation(-da - db)) / (4 * h * h);
-          worst_curvature = std::max(worst_curvature, std::abs(second - Real(curvature(a, b))));
-        }
-      }
+      worst_gradient = std::max(worst_gradient, largest_difference(gradient_by_differences(separation), row.gradient()));
+      worst_curvature = std::max(worst_curvature, largest_difference(curvature_by_differences(separation), curvature));
     }
     BOOST_TEST_CONTEXT("tool edge " << (kind & 1) << ", object edge " << (kind & 2)) {
       BOOST_TEST(worst_gradient < 1e-6L);
