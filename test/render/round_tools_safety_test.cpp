@@ -14,6 +14,7 @@
 #include "scenes/terrain.hpp"
 #include "support/allocation_count.hpp"
 #include "support/rendering.hpp"
+#include "support/rest.hpp"
 
 BOOST_AUTO_TEST_SUITE(round_tools_safety)
 
@@ -127,32 +128,6 @@ void check_hostile(const scenes::Setting& scene, const Tool& tool, const std::st
   watch.check(name);
 }
 
-/// Holds the device at every fiftieth tick of the scene's hand: tool and wrench come to rest, to the last bit.
-template <RigidTool Tool>
-void check_rest(const scenes::Setting& scene, const Tool& tool, const std::string& name) {
-  const TriangleMesh<double> object(scene.vertices, scene.triangles);
-  HapticRenderer renderer(object, tool, scene.settings());
-  BOOST_TEST_REQUIRE((renderer.reset(scene.start) == Status::converged));
-  int latest = 0, moving = 0, held_times = 0;
-  for (int i = 0; i <= ticks_to_run(2000, 4); ++i) {
-    renderer.update(scene.motion(i * 1e-3));
-    if (i % 50 != 49) continue;
-    auto held = renderer;
-    Tick<double> last = held.tick();
-    int rest = 0;
-    for (int k = 1; k <= 100; ++k) {
-      const auto& tick = held.update(scene.motion(i * 1e-3));
-      if (!is_same(tick.graphic_pose, last.graphic_pose) || tick.wrench.force != last.wrench.force || tick.wrench.torque != last.wrench.torque) rest = k;
-      last = tick;
-    }
-    ++held_times;
-    moving += rest > 60;
-    latest = std::max(latest, rest);
-  }
-  BOOST_TEST_MESSAGE(name << ": held " << held_times << " times, at rest after at most " << latest << " ticks");
-  BOOST_TEST_CONTEXT(name) BOOST_TEST(moving == 0);
-}
-
 /// Plates with free space of `gap` between them: floor and ceiling, then the sides.
 scenes::Scene walls(int count, double gap) {
   const Vector3<double> x(0.1, 0, 0), y(0, 0.1, 0), z(0, 0, 0.1);
@@ -225,17 +200,18 @@ BOOST_AUTO_TEST_CASE(a_round_tool_never_crosses_a_thin_wall) {
 }
 
 BOOST_AUTO_TEST_CASE(a_held_device_makes_no_jitter) {
+  constexpr Holding holding{.ticks = 2000, .held_ticks = 100};
   for (const double clearance : {1e-3, 1e-5, 0.0}) {
     const std::string name = "cavity " + std::to_string(clearance);
-    check_rest(scenes::cavity(clearance), Sphere<double>(0.01), name + ", sphere");
-    check_rest(scenes::cavity(clearance), Capsule<double>({{-0.006, 0, 0}, {0.006, 0, 0}}, 0.004), name + ", capsule");
-    check_rest(scenes::cavity(clearance), RoundedBox<double>(Box<double>(Vector3<double>::Constant(0.008)), 0.002), name + ", rounded cube");
+    check_rest(scenes::cavity(clearance), Sphere<double>(0.01), name + ", sphere", holding);
+    check_rest(scenes::cavity(clearance), Capsule<double>({{-0.006, 0, 0}, {0.006, 0, 0}}, 0.004), name + ", capsule", holding);
+    check_rest(scenes::cavity(clearance), RoundedBox<double>(Box<double>(Vector3<double>::Constant(0.008)), 0.002), name + ", rounded cube", holding);
   }
-  check_rest(scenes::terrain(71), small_ball, "terrain, sphere");
-  check_rest(scenes::terrain(71), pin, "terrain, capsule");
-  check_rest(scenes::terrain(22), bar, "terrain, rounded box");
-  check_rest(scenes::terrain(22), hook(), "terrain, two capsules");
-  check_rest(lower(scenes::terrain(71)), Point<double>(), "terrain, point");
+  check_rest(scenes::terrain(71), small_ball, "terrain, sphere", holding);
+  check_rest(scenes::terrain(71), pin, "terrain, capsule", holding);
+  check_rest(scenes::terrain(22), bar, "terrain, rounded box", holding);
+  check_rest(scenes::terrain(22), hook(), "terrain, two capsules", holding);
+  check_rest(lower(scenes::terrain(71)), Point<double>(), "terrain, point", holding);
 }
 
 BOOST_AUTO_TEST_CASE(a_float_renderer_gives_the_poses_of_a_double_one_to_a_micrometre) {
