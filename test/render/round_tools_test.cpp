@@ -9,41 +9,20 @@
 
 #include "scenes/motions.hpp"
 #include "support/rendering.hpp"
+#include "support/valleys.hpp"
 
 BOOST_AUTO_TEST_SUITE(round_tools)
 
 using namespace feeler;
 using namespace feeler::test;
+using namespace feeler::test::valleys;
 
 namespace {
 
-constexpr double margin = 1e-6;
-constexpr double length = 0.008;
 constexpr double radius = 0.005;
-
-Settings<double> settings_about(const Vector3<double>& reference) {
-  Settings<double> settings;
-  settings.reference_point = reference;
-  settings.stiffness = Stiffness<double>::uniform(1000, 1000 * length * length);
-  return settings;
-}
 
 TriangleMesh<double> mesh_of(const std::vector<Vector3<double>>& vertices, const Triangles& triangles) {
   return {scenes::points_from(vertices), triangles};
-}
-
-/// Two planes that meet in the y axis and rise from it by a slope, negative for a roof.
-TriangleMesh<double> valley(double slope) {
-  const double x = 0.1 * std::cos(slope), z = 0.1 * std::sin(slope);
-  return mesh_of({{-x, -0.1, z}, {-x, 0.1, z}, {0, -0.1, 0}, {0, 0.1, 0}, {x, -0.1, z}, {x, 0.1, z}},
-                 Triangles{{0, 2, 3}, {0, 3, 1}, {2, 4, 5}, {2, 5, 3}});
-}
-
-/// Three squares that meet at right angles in the origin.
-TriangleMesh<double> corner() {
-  const double a = 0.1;
-  return mesh_of({{0, 0, 0}, {a, 0, 0}, {0, a, 0}, {0, 0, a}, {a, a, 0}, {a, 0, a}, {0, a, a}},
-                 Triangles{{0, 1, 4}, {0, 4, 2}, {0, 3, 5}, {0, 5, 1}, {0, 2, 6}, {0, 6, 3}});
 }
 
 /// A cube of ±h, solid inside or, turned out, a room.
@@ -54,21 +33,6 @@ TriangleMesh<double> cube(double h, bool is_room) {
   triangles << 0, 4, 6, 0, 6, 2, 1, 3, 7, 1, 7, 5, 0, 1, 5, 0, 5, 4, 2, 6, 7, 2, 7, 3, 0, 2, 3, 0, 3, 1, 4, 5, 7, 4, 7, 6;
   if (is_room) triangles.col(1).swap(triangles.col(2));
   return mesh_of(vertices, triangles);
-}
-
-template <class Renderer>
-const Tick<double>& come_down(Renderer& renderer, const Pose<double>& haptic, const Vector3<double>& from, int ticks = 80) {
-  BOOST_TEST_REQUIRE((renderer.reset({haptic.translation + from, haptic.rotation}) == Status::converged));
-  for (int i = 0; i <= ticks; ++i) renderer.update({haptic.translation + from * (double(ticks - i) / ticks), haptic.rotation});
-  for (int i = 0; i < 20; ++i) renderer.update(haptic);
-  return renderer.tick();
-}
-
-double force_along(const Tick<double>& tick, const Vector3<double>& normal) {
-  double force = 0;
-  for (const auto& contact : tick.contacts)
-    if (contact.normal_world.dot(normal) > 1 - 1e-6) force += contact.force;
-  return force;
 }
 
 const Quaternion<double> askew = exp_rotation<double>({0.3, -0.7, 0.2});
