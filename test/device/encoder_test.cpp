@@ -8,6 +8,8 @@
 
 #include "feeler/device/encoder.hpp"
 
+BOOST_AUTO_TEST_SUITE(encoder)
+
 namespace {
 
 Eigen::Quaterniond orientation(const feeler::DevicePose& pose) {
@@ -22,8 +24,6 @@ feeler::DevicePose random_pose(std::mt19937& bits) {
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(encoder)
 
 BOOST_AUTO_TEST_CASE(positions_and_rotation_vectors_are_whole_counts_within_half_a_count_of_the_truth) {
   const double count = 2e-5;

@@ -11,6 +11,8 @@
 #include "stand_in/force_dimension_stand_in.hpp"
 #include "stand_in/stand_in.hpp"
 
+BOOST_AUTO_TEST_SUITE(force_dimension_device)
+
 using feeler::DeviceState;
 using feeler::DeviceStatus;
 using feeler::DeviceWrench;
@@ -38,8 +40,6 @@ bool says(const std::string& sentence, const char* words) {
 constexpr DeviceWrench some_push{{1, 2, 3}, {0.01, 0.02, 0.03}};
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(force_dimension_device)
 
 BOOST_AUTO_TEST_CASE(right_up_and_to_the_user_are_x_y_and_z) {
   auto& dhd = fresh();

@@ -22,6 +22,8 @@
 #include "stand_in/stand_in.hpp"
 #include "stand_in/virtuose_stand_in.hpp"
 
+BOOST_AUTO_TEST_SUITE(force_faults)
+
 using feeler::DeviceState;
 using feeler::DeviceWrench;
 using feeler::ForceFault;
@@ -171,8 +173,6 @@ const std::vector<std::pair<const char*, Maker (*)(World&)>> makers = {
     {"OpenHaptics", &open_haptics}, {"Force Dimension", &force_dimension}, {"Virtuose", &virtuose}};
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(force_faults)
 
 BOOST_AUTO_TEST_CASE(without_a_fault_the_force_stays_on_to_the_end) {
   for (const auto& [name, make] : makers) {

@@ -10,6 +10,8 @@
 
 #include "feeler/device/force_safety.hpp"
 
+BOOST_AUTO_TEST_SUITE(force_safety)
+
 using feeler::DeviceStatus;
 using feeler::DeviceWrench;
 using feeler::ForceFault;
@@ -62,8 +64,6 @@ struct Session {
 };
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(force_safety)
 
 BOOST_AUTO_TEST_CASE(it_starts_with_nothing_until_the_pose_is_free) {
   Session session;

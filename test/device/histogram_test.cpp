@@ -10,9 +10,9 @@
 
 #include "feeler/device/histogram.hpp"
 
-using feeler::Histogram;
-
 BOOST_AUTO_TEST_SUITE(histogram)
+
+using feeler::Histogram;
 
 BOOST_AUTO_TEST_CASE(bins_tile_all_durations_without_gap_or_overlap) {
   for (int bin = 1; bin < Histogram::bins; ++bin) {

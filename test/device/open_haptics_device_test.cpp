@@ -13,6 +13,8 @@
 #include "stand_in/open_haptics_stand_in.hpp"
 #include "stand_in/stand_in.hpp"
 
+BOOST_AUTO_TEST_SUITE(open_haptics_device)
+
 using feeler::DeviceState;
 using feeler::DeviceStatus;
 using feeler::DeviceWrench;
@@ -49,8 +51,6 @@ DeviceStatus push_once(OpenHapticsDevice& device, feeler_test::OpenHapticsStandI
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(open_haptics_device)
 
 BOOST_AUTO_TEST_CASE(millimetres_in_columns_become_metres_and_a_quaternion) {
   auto& hd = fresh();

@@ -10,6 +10,8 @@
 #include "feeler/device/servo_loop.hpp"
 #include "feeler/device/simulated_phantom.hpp"
 
+BOOST_AUTO_TEST_SUITE(passivity_control)
+
 using feeler::DeviceState;
 using feeler::DeviceWrench;
 using feeler::EnergySum;
@@ -75,8 +77,6 @@ double length(const double (&v)[3]) {
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(passivity_control)
 
 BOOST_AUTO_TEST_CASE(the_observer_sees_the_energy_that_the_mass_gains_or_loses) {
   for (const int delay : {0, 1}) {

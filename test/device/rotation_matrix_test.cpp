@@ -9,6 +9,8 @@
 
 #include "feeler/device/rotation_matrix.hpp"
 
+BOOST_AUTO_TEST_SUITE(rotation_matrix)
+
 namespace {
 
 using WideMatrix = Eigen::Matrix<long double, 3, 3>;
@@ -32,8 +34,6 @@ double distance(const WideMatrix& rotation, const double (&q)[4]) {
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(rotation_matrix)
 
 BOOST_AUTO_TEST_CASE(a_skewed_matrix_becomes_the_nearest_rotation) {
   std::mt19937 bits(11);

@@ -13,6 +13,8 @@
 #include "feeler/device/servo_loop.hpp"
 #include "feeler/device/simulated_phantom.hpp"
 
+BOOST_AUTO_TEST_SUITE(servo_loop)
+
 using feeler::ServoLoop;
 using feeler::ServoSettings;
 using feeler::ServoTick;
@@ -67,8 +69,6 @@ std::vector<ServoTick> run_script(const std::vector<std::int64_t>& work, feeler:
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(servo_loop)
 
 BOOST_AUTO_TEST_CASE(ticks_that_end_by_the_next_deadline_miss_nothing) {
   feeler::ServoReport report;
@@ -250,8 +250,6 @@ BOOST_AUTO_TEST_CASE(stop_from_another_thread_ends_an_unbounded_loop) {
   BOOST_TEST(loop.wait().ticks >= 5);
 }
 
-BOOST_AUTO_TEST_SUITE_END()
-
 BOOST_AUTO_TEST_SUITE(real_time)
 
 BOOST_AUTO_TEST_CASE(what_is_refused_is_said_with_what_to_do) {
@@ -289,5 +287,7 @@ BOOST_AUTO_TEST_CASE(a_loop_runs_on_the_processor_asked_for) {
     BOOST_TEST_MESSAGE(setup.refused[0]);
   }
 }
+
+BOOST_AUTO_TEST_SUITE_END()
 
 BOOST_AUTO_TEST_SUITE_END()

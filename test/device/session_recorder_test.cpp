@@ -14,6 +14,8 @@
 #include "feeler/device/session_recorder.hpp"
 #include "feeler/device/simulated_phantom.hpp"
 
+BOOST_AUTO_TEST_SUITE(session_recorder)
+
 namespace {
 
 /// A file of this process, gone with the test.
@@ -56,8 +58,6 @@ feeler::SessionRecording record(std::size_t capacity) {
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(session_recorder)
 
 BOOST_AUTO_TEST_CASE(a_session_is_replayed_from_its_file_bit_for_bit) {
   const auto recording = record(3000);

@@ -7,6 +7,8 @@
 
 #include "feeler/device/simulated_hand.hpp"
 
+BOOST_AUTO_TEST_SUITE(simulated_hand)
+
 using feeler::DevicePose;
 using feeler::DeviceWrench;
 using feeler::Grip;
@@ -63,8 +65,6 @@ void run(SimulatedHand& hand, const DeviceWrench& wrench, double seconds) {
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(simulated_hand)
 
 BOOST_AUTO_TEST_CASE(a_released_handle_follows_the_closed_form_to_first_order_in_the_substep) {
   for (const bool rotates : {false, true}) {

@@ -10,6 +10,8 @@
 
 #include "feeler/device/simulated_phantom.hpp"
 
+BOOST_AUTO_TEST_SUITE(simulated_phantom)
+
 using feeler::DevicePose;
 using feeler::DeviceState;
 using feeler::DeviceStatus;
@@ -79,8 +81,6 @@ bool same_bits(const DeviceState& a, const DeviceState& b) {
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(simulated_phantom)
 
 BOOST_AUTO_TEST_CASE(the_same_seed_and_wrenches_give_the_same_poses_bit_for_bit) {
   const auto first = shaken_run(3);
@@ -223,8 +223,6 @@ BOOST_AUTO_TEST_CASE(a_wall_far_too_stiff_for_the_delay_does_buzz) {
   BOOST_TEST(settling.span_late > 10 * count);
 }
 
-BOOST_AUTO_TEST_SUITE_END()
-
 BOOST_AUTO_TEST_SUITE(device_interface)
 
 BOOST_AUTO_TEST_CASE(a_device_can_be_held_by_its_interface_alone) {
@@ -235,5 +233,7 @@ BOOST_AUTO_TEST_CASE(a_device_can_be_held_by_its_interface_alone) {
   BOOST_TEST(opened.problem.empty());
   BOOST_TEST(!bool(feeler::OpenResult{"No device answers; switch it on."}));
 }
+
+BOOST_AUTO_TEST_SUITE_END()
 
 BOOST_AUTO_TEST_SUITE_END()

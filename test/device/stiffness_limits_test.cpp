@@ -9,9 +9,9 @@
 
 #include "feeler/device/stiffness_limits.hpp"
 
-using namespace std::complex_literals;
-
 BOOST_AUTO_TEST_SUITE(stiffness_limits)
+
+using namespace std::complex_literals;
 
 BOOST_AUTO_TEST_CASE(a_passive_wall_meets_the_criterion_of_colgate_and_schenkel_at_every_frequency) {
   constexpr double period = 1e-3;

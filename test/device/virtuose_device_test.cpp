@@ -11,6 +11,8 @@
 #include "stand_in/stand_in.hpp"
 #include "stand_in/virtuose_stand_in.hpp"
 
+BOOST_AUTO_TEST_SUITE(virtuose_device)
+
 using feeler::DeviceState;
 using feeler::DeviceStatus;
 using feeler::DeviceWrench;
@@ -39,8 +41,6 @@ bool says(const std::string& sentence, const char* words) {
 constexpr DeviceWrench some_push{{1, 2, 3}, {0.25, 0.5, 0.125}};
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(virtuose_device)
 
 BOOST_AUTO_TEST_CASE(right_up_and_to_the_user_are_x_y_and_z_and_the_quaternion_is_a_unit_one) {
   auto& controller = fresh();

@@ -9,6 +9,8 @@
 
 #include "feeler/device/workspace_map.hpp"
 
+BOOST_AUTO_TEST_SUITE(workspace_map)
+
 using Eigen::Quaterniond;
 using Eigen::Vector3d;
 using feeler::DevicePose;
@@ -50,8 +52,6 @@ double distance(const DevicePose& a, const DevicePose& b) {
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(workspace_map)
 
 BOOST_AUTO_TEST_CASE(without_settings_it_changes_nothing) {
   WorkspaceMap map;

@@ -9,6 +9,8 @@
 #include "feeler/render/wrench_derivative.hpp"
 #include "scenes/plate.hpp"
 
+BOOST_AUTO_TEST_SUITE(wrench_extrapolator)
+
 using feeler::DevicePose;
 using feeler::WrenchModel;
 
@@ -30,8 +32,6 @@ DevicePose at(double y) {
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(wrench_extrapolator)
 
 BOOST_AUTO_TEST_CASE(a_linear_wall_is_continued_and_never_pulls) {
   for (const double y : {-1.9e-3, -1.5e-3, -1e-3, -0.2e-3}) {

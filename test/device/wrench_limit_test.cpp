@@ -7,6 +7,8 @@
 
 #include "feeler/device/wrench_limit.hpp"
 
+BOOST_AUTO_TEST_SUITE(wrench_limit)
+
 namespace {
 
 double length(const double (&v)[3]) { return std::hypot(v[0], v[1], v[2]); }
@@ -18,8 +20,6 @@ double deviation(const double (&a)[3], const double (&b)[3]) {
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(wrench_limit)
 
 BOOST_AUTO_TEST_CASE(a_long_wrench_is_shortened_to_the_maximum_and_keeps_its_direction) {
   std::mt19937 bits(7);
