@@ -15,9 +15,11 @@
 #include <limits>
 #include <map>
 #include <random>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
+#include "command_line.hpp"
 #include "qp/judge.hpp"
 #include "qp/problem_families.hpp"
 #include "qp/solvers.hpp"
@@ -195,37 +197,15 @@ class Bench {
   std::map<std::string, Summary> summaries_;
 };
 
-int fail(const std::string& message) {
-  std::fprintf(stderr, "feeler-qp-bench: %s\n", message.c_str());
-  return 2;
-}
-
-}  // namespace
-
-int main(int argc, char** argv) {
-  Options options;
-  CLI::App app(
-      "Times QP solvers on contact problems, and measures how far their answers lie from the exact ones.");
-  app.add_option("--problems", options.problems, "of each family, at least")->check(CLI::Range(1, 100000));
-  app.add_option("--rounds", options.rounds, "over the problems of a family; the median counts")
-      ->check(CLI::Range(1, 1000));
-  app.add_option("--seed", options.seed, "of the problems");
-  app.add_option("--family", options.family, "only this one");
-  app.add_option("--out", options.out, "folder for qp.csv and the plot");
-  try {
-    app.parse(argc, argv);
-  } catch (const CLI::ParseError& error) {
-    if (error.get_exit_code() == 0) return app.exit(error);
-    return fail(error.what());
-  }
+int run(const Options& options) {
   const auto& families = feeler::qp_families::all_families();
   if (!options.family.empty() && std::none_of(families.begin(), families.end(), [&](const auto& family) {
         return family.name == options.family;
       }))
-    return fail("there is no family " + options.family);
+    throw std::invalid_argument("there is no family " + options.family);
   std::error_code error;
   std::filesystem::create_directories(options.out, error);
-  if (error || !std::ofstream(options.out / "qp.csv")) return fail("cannot write to " + options.out.string());
+  if (error || !std::ofstream(options.out / "qp.csv")) throw std::runtime_error("cannot write to " + options.out.string());
 
   Bench bench(options);
   for (std::size_t i = 0; i < families.size(); ++i) {
@@ -235,4 +215,20 @@ int main(int argc, char** argv) {
   if (!bench.draw())
     std::fprintf(stderr, "feeler-qp-bench: gnuplot did not draw; the figures are in qp.csv\n");
   return 0;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  Options options;
+  CLI::App app(
+      "Times QP solvers on contact problems, and measures how far their answers lie from the exact ones.",
+      "feeler-qp-bench");
+  app.add_option("--problems", options.problems, "of each family, at least")->check(CLI::Range(1, 100000));
+  app.add_option("--rounds", options.rounds, "over the problems of a family; the median counts")
+      ->check(CLI::Range(1, 1000));
+  app.add_option("--seed", options.seed, "of the problems");
+  app.add_option("--family", options.family, "only this one");
+  app.add_option("--out", options.out, "folder for qp.csv and the plot");
+  return feeler::bench::run_with_options(app, argc, argv, [&] { return run(options); });
 }

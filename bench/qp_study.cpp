@@ -12,6 +12,7 @@
 #include <string>
 #include <vector>
 
+#include "command_line.hpp"
 #include "qp/judge.hpp"
 #include "qp/problem_families.hpp"
 #include "qp/solvers.hpp"
@@ -96,23 +97,19 @@ class Study {
 int main(int argc, char** argv) {
   int problems = 1000;
   unsigned seed = std::random_device()();
-  CLI::App app("Counts wrong answers of QP solvers on fresh contact problems, judged in exact arithmetic.");
+  CLI::App app("Counts wrong answers of QP solvers on fresh contact problems, judged in exact arithmetic.",
+               "feeler-qp-study");
   app.add_option("--problems", problems, "how many, over all families")->check(CLI::Range(1, 100000000));
   app.add_option("--seed", seed, "of the problems; a new one each run unless given");
-  try {
-    app.parse(argc, argv);
-  } catch (const CLI::ParseError& error) {
-    if (error.get_exit_code() == 0) return app.exit(error);
-    std::fprintf(stderr, "feeler-qp-study: %s\n", error.what());
-    return 2;
-  }
 
-  const auto& families = feeler::qp_families::all_families();
-  const int each = (problems + int(families.size()) - 1) / int(families.size());
-  std::printf("%d problems of each of %zu families, seed %u, judged by %s\n", each, families.size(), seed,
-              feeler::qp_families::exact_solver_name());
-  Study study;
-  for (std::size_t i = 0; i < families.size(); ++i) study.run(families[i], each, seed + unsigned(i));
-  study.print();
-  return study.is_right("DualActiveSet") ? 0 : 1;
+  return feeler::bench::run_with_options(app, argc, argv, [&] {
+    const auto& families = feeler::qp_families::all_families();
+    const int each = (problems + int(families.size()) - 1) / int(families.size());
+    std::printf("%d problems of each of %zu families, seed %u, judged by %s\n", each, families.size(), seed,
+                feeler::qp_families::exact_solver_name());
+    Study study;
+    for (std::size_t i = 0; i < families.size(); ++i) study.run(families[i], each, seed + unsigned(i));
+    study.print();
+    return study.is_right("DualActiveSet") ? 0 : 1;
+  });
 }

@@ -12,6 +12,7 @@
 #include <CLI/CLI.hpp>
 
 #include "../device/demo/mesh_file.hpp"
+#include "command_line.hpp"
 #include "feeler/feeler.hpp"
 #include "scenes/catalogue.hpp"
 #include "scenes/motions.hpp"
@@ -165,7 +166,7 @@ void run(const std::string& name, const feeler::scenes::CompoundScene& scene, co
 
 int main(int argc, char** argv) {
   Options options;
-  CLI::App app("feeler-replay: how long a tick takes, how exact it is, and what penetrates");
+  CLI::App app("feeler-replay: how long a tick takes, how exact it is, and what penetrates", "feeler-replay");
   app.add_option("--scene", options.scene, "cavity, steps, spline, sulcus, teeth, terrain or all")
       ->check(CLI::IsMember({"all", "cavity", "steps", "spline", "sulcus", "teeth", "terrain"}));
   app.add_option("--rate", options.rate, "ticks a second")->check(CLI::Range(100.0, 1e5));
@@ -175,10 +176,8 @@ int main(int argc, char** argv) {
   app.add_option("--settle", options.settle_every, "hold the device at every Nth contact tick and see where the tool settles; 0 for none")->check(CLI::NonNegativeNumber);
   app.add_option("--budget", options.work_budget, "Settings::work_budget; 0 for the default")->check(CLI::NonNegativeNumber);
   app.add_option("--margin", options.margin, "Settings::margin in metres; 0 for the default")->check(CLI::NonNegativeNumber);
-  CLI11_PARSE(app, argc, argv);
-
-  const auto wanted = [&](const std::string& name) { return options.scene == "all" || options.scene == name; };
-  try {
+  return feeler::bench::run_with_options(app, argc, argv, [&] {
+    const auto wanted = [&](const std::string& name) { return options.scene == "all" || options.scene == name; };
     print_header();
     for (const auto& entry : feeler::scenes::catalogue()) {
       if (!wanted(entry.family)) continue;
@@ -193,9 +192,6 @@ int main(int argc, char** argv) {
         std::printf("teeth: skipped, %s is not here\n", file.c_str());
       }
     }
-  } catch (const std::exception& problem) {
-    std::fprintf(stderr, "feeler-replay: %s\n", problem.what());
-    return 1;
-  }
-  return 0;
+    return 0;
+  });
 }

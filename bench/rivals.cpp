@@ -8,6 +8,7 @@
 #include <CLI/CLI.hpp>
 
 #include "../device/demo/mesh_file.hpp"
+#include "command_line.hpp"
 #include "rivals/arena.hpp"
 #include "rivals/report.hpp"
 #include "scenes/catalogue.hpp"
@@ -132,7 +133,8 @@ int main(int argc, char** argv) {
   Options options;
   CLI::App app(
       "feeler-rivals: Feeler and the engines that people would take instead, on the same scenes; Markdown to "
-      "the standard output");
+      "the standard output",
+      "feeler-rivals");
   app.add_option("--scene", options.scene, "cavity, steps, spline, sulcus, terrain, teeth, plates or all")
       ->check(CLI::IsMember({"all", "cavity", "steps", "spline", "sulcus", "terrain", "teeth", "plates"}));
   app.add_option("--rate", options.contest.rate, "ticks a second")->check(CLI::Range(100.0, 1e5));
@@ -149,12 +151,7 @@ int main(int argc, char** argv) {
   app.add_option("--out", options.folder, "folder of the CSV files, tables and figures");
   app.add_flag("--scaling", options.is_scaling, "grow the object and the tool instead");
   app.add_flag("--no-figures", options.has_no_figures, "write CSV files and tables only");
-  try {
-    app.parse(argc, argv);
-  } catch (const CLI::ParseError& problem) {
-    return app.exit(problem) == 0 ? 0 : 2;
-  }
-  try {
+  return feeler::bench::run_with_options(app, argc, argv, [&] {
     if (const auto packages = missing_packages(); !packages.empty()) {
       std::string list;
       for (const auto& package : packages) list += " " + package;
@@ -174,9 +171,6 @@ int main(int argc, char** argv) {
                    "gnuplot-nox.\n");
       return 3;
     }
-  } catch (const std::exception& problem) {
-    std::fprintf(stderr, "feeler-rivals: %s\n", problem.what());
-    return 2;
-  }
-  return 0;
+    return 0;
+  });
 }

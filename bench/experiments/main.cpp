@@ -8,6 +8,7 @@
 
 #include <CLI/CLI.hpp>
 
+#include "command_line.hpp"
 #include "experiments/measures.hpp"
 #include "experiments/motions.hpp"
 #include "experiments/plots.hpp"
@@ -230,18 +231,13 @@ int main(int argc, char** argv) {
   std::string folder = "out/experiments", experiment = "all";
   double seconds = 0.0;
   bool has_no_figures = false;
-  CLI::App app("feeler-experiments: section V of the paper, measured again");
+  CLI::App app("feeler-experiments: section V of the paper, measured again", "feeler-experiments");
   app.add_option("--out", folder, "folder of the CSV files and figures");
   app.add_option("--experiment", experiment, "all, cavity, steps, local, fine or table")
       ->check(CLI::IsMember({"all", "cavity", "steps", "local", "fine", "table"}));
   app.add_option("--seconds", seconds, "length of the motion over the steps; 0 for its own")->check(CLI::Range(0.0, 1000.0));
   app.add_flag("--no-figures", has_no_figures, "write CSV files only");
-  try {
-    app.parse(argc, argv);
-  } catch (const CLI::ParseError& problem) {
-    return app.exit(problem) == 0 ? 0 : 2;
-  }
-  try {
+  return feeler::bench::run_with_options(app, argc, argv, [&] {
     fs::create_directories(folder);
     Experiments experiments(folder, !has_no_figures);
     const auto wanted = [&](const char* name) { return experiment == "all" || experiment == name; };
@@ -258,9 +254,6 @@ int main(int argc, char** argv) {
       std::fprintf(stderr, "feeler-experiments: the CSV files are written, but gnuplot could not draw them: install gnuplot-nox.\n");
       return 3;
     }
-  } catch (const std::exception& problem) {
-    std::fprintf(stderr, "feeler-experiments: %s\n", problem.what());
-    return 2;
-  }
-  return 0;
+    return 0;
+  });
 }

@@ -1,0 +1,29 @@
+// How the programs of this folder start and end.
+#pragma once
+
+#include <cstdio>
+#include <exception>
+
+#include <CLI/CLI.hpp>
+
+namespace feeler::bench {
+
+/// Reads the options of a program from its command line, then runs it.
+/// @return what `run` returns; 0 after --help; 2, with a sentence on the standard error, where an option is refused or `run` throws
+template <class Run>
+int run_with_options(CLI::App& app, int argc, const char* const* argv, const Run& run) {
+  constexpr int bad_input = 2;
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& problem) {
+    return app.exit(problem) == 0 ? 0 : bad_input;
+  }
+  try {
+    return run();
+  } catch (const std::exception& problem) {
+    std::fprintf(stderr, "%s: %s\n", app.get_name().c_str(), problem.what());
+    return bad_input;
+  }
+}
+
+}  // namespace feeler::bench
