@@ -21,7 +21,7 @@ struct StudyOptions {
 };
 
 struct NamedDevice {
-  const char* name;  ///< for a command line
+  std::string name;  ///< for a command line
   DeviceSpecification device;
 };
 /// Every preset that differs from the others in more than its name.
