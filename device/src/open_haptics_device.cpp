@@ -118,6 +118,7 @@ class OpenHapticsDevice::Driver {
       return "OpenHaptics: the device cannot be opened: " + text_of(error);
     }
     library_.make_current_device(handle_);
+    if (std::string problem = calibrate(); !problem.empty()) return problem;
     if (std::string problem = ask(); !problem.empty()) return problem;
     library_.enable(force_output);
     callback_ = library_.schedule_asynchronous(&Driver::frame_of, this, highest_priority);
@@ -138,10 +139,37 @@ class OpenHapticsDevice::Driver {
            "device.";
   }
 
+  /// Lets the device calibrate itself where it needs nobody's hand for it. Never by an encoder reset: nobody
+  /// knows here that the arm is held in its reset position. Only before a session, because poses jump.
+  /// @return what went wrong
+  std::string calibrate() {
+    constexpr int most_updates = 50;
+    int styles = 0;
+    library_.begin_frame(handle_);
+    library_.get_integers(calibration_styles, &styles);
+    library_.end_frame(handle_);
+    const unsigned int style = unsigned(styles) & (automatic | inkwell);
+    for (int update = 0;; ++update) {
+      const unsigned int calibration = library_.check_calibration();
+      if (const unsigned int error = drain_errors(); error >= first_device_error) {
+        return "OpenHaptics: the device cannot be calibrated: " + text_of(error);
+      }
+      if (calibration == calibrated) return {};
+      if (calibration != needs_update || style == 0 || update == most_updates) {
+        return std::string("OpenHaptics: the device is not calibrated: ") +
+               (calibration == needs_manual_input
+                    ? "put the stylus into its inkwell, or hold the arm as the manual shows, "
+                    : "move the handle through its workspace and put it to rest, ") +
+               "run the calibration of the driver's setup program, then start again.";
+      }
+      library_.update_calibration((style & automatic) != 0 ? automatic : inkwell);
+      std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    }
+  }
+
   /// The model and its figures; inside a frame, as libHD demands.
   std::string ask() {
     library_.begin_frame(handle_);
-    const unsigned int calibration = library_.check_calibration();
     const char* const model = library_.get_string(device_model_type);
     int degrees = 3;
     int rate = 0;
@@ -160,13 +188,6 @@ class OpenHapticsDevice::Driver {
     library_.end_frame(handle_);
     if (const unsigned int error = drain_errors(); error >= first_device_error) {
       return "OpenHaptics: the device does not say what it is: " + text_of(error);
-    }
-    if (calibration != calibrated) {
-      return std::string("OpenHaptics: the device is not calibrated: ") +
-             (calibration == needs_manual_input
-                  ? "put the stylus into its inkwell, or hold the arm as the manual shows, "
-                  : "move the handle through its workspace and put it to rest, ") +
-             "run the calibration of the driver's setup program, then start again.";
     }
     const std::string name = model != nullptr ? model : "";
     specification = preset_of(name);

@@ -27,6 +27,7 @@ std::string Library::load(const std::vector<std::string>& candidates) {
            file.find("hdGetString", get_string),
            file.find("hdSetDoublev", set_doubles),
            file.find("hdCheckCalibration", check_calibration),
+           file.find("hdUpdateCalibration", update_calibration),
            file.find("hdStartScheduler", start_scheduler),
            file.find("hdStopScheduler", stop_scheduler),
            file.find("hdScheduleAsynchronous", schedule_asynchronous),

@@ -17,6 +17,7 @@ enum Parameter : unsigned int {
   current_transform = 0x2052,         // 16 doubles, column by column [mm]
   device_model_type = 0x2501,         // string
   output_degrees = 0x2554,            // int, 3 or 6
+  calibration_styles = 0x2555,        // int, a bit for each that the device supports
   update_rate = 0x2600,               // int [Hz]
   nominal_max_stiffness = 0x2602,     // double [N/mm]
   nominal_max_force = 0x2603,         // double [N]
@@ -31,6 +32,13 @@ enum Capability : unsigned int { force_output = 0x4000 };
 
 /// Answers of hdCheckCalibration.
 enum Calibration : unsigned int { calibrated = 0x5000, needs_update = 0x5001, needs_manual_input = 0x5002 };
+
+/// Ways to calibrate, as bits.
+enum CalibrationStyle : unsigned int {
+  encoder_reset = 1,  // where the arm is now becomes the reset position: only for who holds it there
+  automatic = 2,      // by what the device knows of itself
+  inkwell = 4,        // by the stylus in its inkwell
+};
 
 enum ErrorCode : unsigned int {
   success = 0,
@@ -78,6 +86,7 @@ struct Library {
   const char* (*get_string)(unsigned int) = nullptr;
   void (*set_doubles)(unsigned int, const double*) = nullptr;
   unsigned int (*check_calibration)() = nullptr;
+  void (*update_calibration)(unsigned int) = nullptr;
   void (*start_scheduler)() = nullptr;
   void (*stop_scheduler)() = nullptr;
   unsigned long (*schedule_asynchronous)(Callback, void*, unsigned short) = nullptr;

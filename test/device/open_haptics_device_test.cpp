@@ -157,8 +157,11 @@ BOOST_AUTO_TEST_CASE(a_device_that_cannot_start_is_refused_with_a_sentence_and_l
       {[](auto& hd) { hd.error_at_init = 0x301; }, "in use already"},
       {[](auto& hd) { hd.error_at_init = 0x777; }, "an error in the words of libHD"},
       {[](auto& hd) { hd.error_at_start = 0x304; }, "servo timer"},
-      {[](auto& hd) { hd.calibration = 0x5001; }, "not calibrated"},
       {[](auto& hd) { hd.calibration = 0x5002; }, "inkwell"},
+      {[](auto& hd) { hd.calibration = 0x5001, hd.updates_missing = 1000; }, "not calibrated"},
+      // An encoder reset is for who holds the arm in its reset position.
+      {[](auto& hd) { hd.calibration = 0x5001, hd.calibration_styles = 1; }, "not calibrated"},
+      {[](auto& hd) { hd.calibration = 0x5001, hd.error_at_update = 0x300; }, "switch it off and on"},
       {[](auto& hd) { hd.never_calls_back = true; }, "no pose came within a second"},
       {[](auto& hd) { std::fill(hd.transform, hd.transform + 16, 0.0); }, "a pose that is none"},
   };
@@ -176,6 +179,26 @@ BOOST_AUTO_TEST_CASE(a_device_that_cannot_start_is_refused_with_a_sentence_and_l
     BOOST_TEST(is_silent(hd));
     BOOST_TEST(hd.broken_rules == 0);
   }
+}
+
+BOOST_AUTO_TEST_CASE(a_device_that_can_calibrate_itself_does_so_before_it_starts) {
+  for (const unsigned int styles : {2u, 4u, 7u}) {
+    auto& hd = fresh();
+    hd.calibration = 0x5001;
+    hd.calibration_styles = styles;
+    hd.updates_missing = 3;
+    OpenHapticsDevice device(settings());
+    const auto opened = device.open();
+    BOOST_TEST(bool(opened), opened.problem);
+    BOOST_TEST(hd.calibrated_by == (styles == 4 ? 4u : 2u));  // automatic before inkwell, and no encoder reset
+    BOOST_TEST(hd.updates_missing == 0);
+    BOOST_TEST((push_once(device, hd) == DeviceStatus::ok));
+    BOOST_TEST(hd.broken_rules == 0);
+  }
+  auto& hd = fresh();
+  OpenHapticsDevice device(settings());
+  BOOST_REQUIRE(bool(device.open()));
+  BOOST_TEST(hd.calibrated_by == 0);  // a good calibration is left alone
 }
 
 BOOST_AUTO_TEST_CASE(force_errors_silence_the_device_by_the_next_frame_are_told_once_and_pass) {

@@ -52,6 +52,9 @@ void reset() {
   device.output_degrees = fresh.output_degrees;
   device.error_at_init = device.error_at_start = device.error_in_next_frame = device.error_after_push = 0;
   device.calibration = fresh.calibration;
+  device.calibration_styles = fresh.calibration_styles;
+  device.updates_missing = fresh.updates_missing;
+  device.error_at_update = device.calibrated_by = 0;
   device.has_no_temperature = device.never_calls_back = device.own_thread = false;
   let_go();
   std::fill(device.joint_torque, device.joint_torque + 3, 0.0);
@@ -142,6 +145,9 @@ void hdGetIntegerv(unsigned int parameter, int* value) {
     case 0x2554:
       *value = device.output_degrees;
       break;
+    case 0x2555:
+      *value = int(device.calibration_styles);
+      break;
     case 0x2600:
       *value = 1000;
       break;
@@ -201,6 +207,15 @@ unsigned int hdCheckCalibration() {
   return device.calibration;
 }
 #endif
+
+void hdUpdateCalibration(unsigned int style) {
+  const Lock lock(device.mutex);
+  keep_rule(!device.is_scheduler_running);  // poses jump
+  if (device.error_at_update != 0) errors.push_back(device.error_at_update);
+  if ((style & device.calibration_styles) == 0) return errors.push_back(0x100);
+  device.calibrated_by = style;
+  if (device.calibration == 0x5001 && --device.updates_missing <= 0) device.calibration = 0x5000;
+}
 
 unsigned long hdScheduleAsynchronous(unsigned int (*function)(void*), void* argument, unsigned short) {
   callback = function;

@@ -18,11 +18,14 @@ struct OpenHapticsStandIn {
   // The device.
   const char* model = "PHANTOM Premium 3.0";
   int output_degrees = 6;
+  unsigned int calibration_styles = 2;  // bits: encoder reset, automatic, inkwell
 
   // Faults.
   unsigned int error_at_init = 0;        // with an invalid handle
   unsigned int error_at_start = 0;       // of the scheduler
   unsigned int calibration = 0x5000;     // OK
+  int updates_missing = 1;               // until a calibration that needs an update is OK
+  unsigned int error_at_update = 0;      // of the calibration
   unsigned int error_in_next_frame = 0;  // once
   unsigned int error_after_push = 0;     // once, found by hdEndFrame
   bool has_no_temperature = false;       // asking is an error
@@ -36,7 +39,8 @@ struct OpenHapticsStandIn {
   bool is_initialised = false;
   bool is_scheduler_running = false;
   int frames = 0;
-  int broken_rules = 0;  // a get, a set or an end outside a frame
+  unsigned int calibrated_by = 0;  // the style of the last update
+  int broken_rules = 0;            // a get, a set or an end outside a frame
 
   // Runs the scheduled frames once, as the servo thread does.
   void (*tick)() = nullptr;

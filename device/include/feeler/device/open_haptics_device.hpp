@@ -32,8 +32,8 @@ class OpenHapticsDevice final : public Device {
   explicit OpenHapticsDevice(OpenHapticsSettings settings = {}, Clock* clock = nullptr);
   ~OpenHapticsDevice() override;
 
-  /// Waits up to a second for the first pose. Refuses a device that is not calibrated: its poses would be
-  /// wrong.
+  /// Waits up to a second for the first pose. A device that can calibrate itself does so. Refuses one that
+  /// needs a hand for it: its poses would be wrong.
   OpenResult open() override;
   DeviceStatus read(DeviceState& state) noexcept override;
   DeviceStatus write(const DeviceWrench& wrench) noexcept override;
