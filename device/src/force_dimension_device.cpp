@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <chrono>
 #include <cmath>
 #include <cstring>
@@ -13,6 +14,7 @@
 #include "feeler/device/shared_library.hpp"
 #include "feeler/device/wrench_limit.hpp"
 #include "maker_frame.hpp"
+#include "single_caller.hpp"
 
 namespace feeler {
 namespace {
@@ -148,15 +150,19 @@ class ForceDimensionDevice::Driver {
 
   DeviceStatus read(DeviceState& state) noexcept {
     if (!is_open_) return DeviceStatus::not_open;
-    if (is_lost_ || take_pose() < 0) return DeviceStatus::fault;
+    const auto turn = library_calls_.turn();
+    if (turn && (is_lost_ || take_pose() < 0)) return DeviceStatus::fault;
     state = state_;
+    if (turn) is_let_go_.store(false, std::memory_order_relaxed);  // else it is let go just now
     return DeviceStatus::ok;
   }
 
   DeviceStatus write(const DeviceWrench& wrench) noexcept {
     if (!is_open_) return DeviceStatus::not_open;
     const bool is_good = is_finite(wrench);
-    const bool pushes = is_good && !is_lost_;
+    const auto turn = library_calls_.turn();
+    if (!turn) return is_good ? DeviceStatus::ok : DeviceStatus::not_finite;  // just now it is let go
+    const bool pushes = is_good && !is_lost_ && !is_let_go_.load(std::memory_order_relaxed);
     // A lost device is told to let go as long as somebody asks it to push.
     const int answer = push(
         pushes ? limited(wrench, specification.maximum_force, specification.maximum_torque) : DeviceWrench{});
@@ -165,6 +171,11 @@ class ForceDimensionDevice::Driver {
     if (answer == motors_saturated)
       say("The motors give all they can and less than was asked for: lower the stiffness.");
     return is_good ? DeviceStatus::ok : DeviceStatus::not_finite;
+  }
+
+  void let_go() noexcept {
+    is_let_go_.store(true, std::memory_order_relaxed);  // before the turn: a write that comes after it knows
+    if (const auto turn = library_calls_.turn(); turn && is_open_) push({});
   }
 
   void close() noexcept {
@@ -263,6 +274,8 @@ class ForceDimensionDevice::Driver {
   char device_ = -1;
   bool is_open_ = false;
   bool is_lost_ = false;
+  SingleCaller library_calls_;  // by `read` and `write`, and by the watchdog
+  std::atomic<bool> is_let_go_ = false;
   std::int64_t opened_at_ = 0;
   DeviceState state_;
   std::array<char, 200> complaint_ = {};
@@ -281,6 +294,9 @@ DeviceStatus ForceDimensionDevice::read(DeviceState& state) noexcept {
 }
 DeviceStatus ForceDimensionDevice::write(const DeviceWrench& wrench) noexcept {
   return driver_->write(wrench);
+}
+void ForceDimensionDevice::let_go() noexcept {
+  driver_->let_go();
 }
 void ForceDimensionDevice::close() noexcept {
   driver_->close();

@@ -1,8 +1,10 @@
 // Runs a callback at absolute deadlines and counts those it missed.
 #include "feeler/device/servo_loop.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <exception>
+#include <limits>
 #include <string>
 #include <utility>
 
@@ -47,12 +49,23 @@ const RealTimeSetup& ServoLoop::start() {
     safety_ = std::make_unique<ForceSafety>(limits, device);
     if (settings_.passivity) passivity_ = std::make_unique<PassivityControl>(*settings_.passivity);
     if (settings_.recorder != nullptr) settings_.recorder->describe(device, limits);
+    if (&clock_ == &monotonic_clock_ && device_->lives_by_the_clock()) watch(limits.latest_tick);
   }
   is_started_ = true;
   is_running_.store(true, std::memory_order_release);
   thread_ = std::thread([this] { run(); });
   is_set_up_.wait();
   return report_.setup;
+}
+
+void ServoLoop::watch(double latest_tick) {
+  RealTimeRequest request = settings_.real_time;
+  request.fifo = request.fifo && report_.period > 0;
+  request.priority = std::min(request.priority + 1, 99);  // before a renderer that does not give the processor back
+  request.lock_memory = false;                            // the loop does
+  request.processor = -1;
+  const double period = force_tick_.period;
+  watchdog_ = std::make_unique<ForceWatchdog>(*device_, period + 0.75 * (latest_tick - period), request);
 }
 
 const ServoReport& ServoLoop::wait() {
@@ -77,7 +90,7 @@ void ServoLoop::run() {
   } catch (...) {
     report_.problem = "The callback threw something that is no std::exception, so the loop ended.";
   }
-  let_go();
+  end_force();
   is_running_.store(false, std::memory_order_release);
 }
 
@@ -93,10 +106,14 @@ bool ServoLoop::render_to_device(const ServoTick& tick) {
   const std::int64_t now = clock_.now();
   force_tick_.now = double(now) * 1e-9;
   force_tick_.age = device_->lives_by_the_clock() ? double(now - read_at) * 1e-9 : 0;
+  if (was_let_go()) force_tick_.age = std::numeric_limits<double>::infinity();  // late, whatever this clock says
 
   const DeviceWrench pushed = safety_->step(force_tick_);
-  const DeviceStatus written = device_->write(pushed);
-  if (passivity_) passivity_->pushed(pushed);
+  is_let_go_ = is_let_go_ && safety_->phase() == ForcePhase::fading;
+  const DeviceWrench given = is_let_go_ ? DeviceWrench{} : pushed;
+  const DeviceStatus written = device_->write(given);
+  if (watchdog_) watchdog_->feed();
+  if (passivity_) passivity_->pushed(given);
   force_phase_.store(safety_->phase(), std::memory_order_relaxed);
   force_fault_.store(safety_->fault(), std::memory_order_relaxed);
   if (settings_.recorder != nullptr) settings_.recorder->add({force_tick_, pushed, safety_->phase(), safety_->fault()});
@@ -104,9 +121,16 @@ bool ServoLoop::render_to_device(const ServoTick& tick) {
   return force_tick_.status != DeviceStatus::fault && force_tick_.status != DeviceStatus::not_open;
 }
 
-void ServoLoop::let_go() noexcept {
+bool ServoLoop::was_let_go() noexcept {
+  if (!watchdog_ || !watchdog_->has_let_go()) return false;
+  ++report_.let_go;
+  return is_let_go_ = true;
+}
+
+void ServoLoop::end_force() noexcept {
   if (device_ == nullptr) return;
   device_->write({});
+  watchdog_.reset();
   const bool is_lost = force_tick_.status == DeviceStatus::fault || force_tick_.status == DeviceStatus::not_open;
   if (is_lost && safety_->fault() != ForceFault::device_lost) {  // it failed to push, and no tick has told the safety
     safety_->step(force_tick_);

@@ -48,6 +48,9 @@ std::string to_string(const ServoReport& report) {
   out << "ticks: " << report.ticks << ", missed deadlines: " << report.missed << "\n";
   write_tail(out, "wake-up latency", report.wake_up_latency);
   write_tail(out, "compute time", report.compute_time);
+  if (report.let_go > 0) {
+    out << "watchdog: the renderer or the system held the loop up, so the force was taken away " << report.let_go << " times\n";
+  }
   write_force(out, report.force);
   if (report.passivity.ticks_damped > 0) {
     out << "passivity: the renderer gave the hand up to " << -report.passivity.lowest_energy << " J; damped in "

@@ -2,12 +2,14 @@
 #include "feeler/device/virtuose_device.hpp"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <utility>
 
 #include "feeler/device/shared_library.hpp"
 #include "feeler/device/wrench_limit.hpp"
 #include "maker_frame.hpp"
+#include "single_caller.hpp"
 
 namespace feeler {
 namespace {
@@ -107,8 +109,11 @@ class VirtuoseDevice::Driver {
 
   DeviceStatus read(DeviceState& state) noexcept {
     if (!is_open_) return DeviceStatus::not_open;
-    if (is_lost_ || !take_pose()) return DeviceStatus::fault;
+    const auto turn = library_calls_.turn();
+    if (turn && (is_lost_ || !take_pose())) return DeviceStatus::fault;
     state = state_;
+    if (!turn) return DeviceStatus::ok;  // just now it is let go: the pose keeps its time
+    is_let_go_.store(false, std::memory_order_relaxed);
     const char* const hindrance = what_hinders();
     if (is_lost_) return DeviceStatus::fault;
     is_hindered_ = hindrance != nullptr;
@@ -120,13 +125,20 @@ class VirtuoseDevice::Driver {
   DeviceStatus write(const DeviceWrench& wrench) noexcept {
     if (!is_open_) return DeviceStatus::not_open;
     const bool is_good = is_finite(wrench);
-    const bool pushes = is_good && !is_lost_ && !is_hindered_;
+    const auto turn = library_calls_.turn();
+    if (!turn) return is_good ? DeviceStatus::ok : DeviceStatus::not_finite;  // just now it is let go
+    const bool pushes = is_good && !is_lost_ && !is_hindered_ && !is_let_go_.load(std::memory_order_relaxed);
     const bool is_done = push(
         pushes ? limited(wrench, specification.maximum_force, specification.maximum_torque) : DeviceWrench{});
     if (is_lost_) return DeviceStatus::fault;
     if (!is_done)
       return lose("The controller does not take the force: check its network cable and its emergency stop.");
     return is_good ? DeviceStatus::ok : DeviceStatus::not_finite;
+  }
+
+  void let_go() noexcept {
+    is_let_go_.store(true, std::memory_order_relaxed);  // before the turn: a write that comes after it knows
+    if (const auto turn = library_calls_.turn(); turn && is_open_) push({});
   }
 
   void close() noexcept {
@@ -249,6 +261,8 @@ class VirtuoseDevice::Driver {
   Context context_ = nullptr;
   bool is_open_ = false;
   bool is_lost_ = false;
+  SingleCaller library_calls_;  // by `read` and `write`, and by the watchdog
+  std::atomic<bool> is_let_go_ = false;
   bool is_hindered_ = false;  // by its emergency stop, its power or its dead man's switch
   std::int64_t opened_at_ = 0;
   DeviceState state_;
@@ -268,6 +282,9 @@ DeviceStatus VirtuoseDevice::read(DeviceState& state) noexcept {
 }
 DeviceStatus VirtuoseDevice::write(const DeviceWrench& wrench) noexcept {
   return driver_->write(wrench);
+}
+void VirtuoseDevice::let_go() noexcept {
+  driver_->let_go();
 }
 void VirtuoseDevice::close() noexcept {
   driver_->close();

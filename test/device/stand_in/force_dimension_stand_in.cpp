@@ -2,6 +2,7 @@
 #include "force_dimension_stand_in.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <initializer_list>
 
 namespace {
@@ -11,6 +12,7 @@ constexpr int time_guard = 1;
 constexpr int saturated = 2;
 
 feeler_test::ForceDimensionStandIn device;
+feeler_test::MotorLog motors;
 
 /// 0, or −1 for a device that is not there.
 int answer_for(char id) {
@@ -19,9 +21,10 @@ int answer_for(char id) {
 }
 
 void reset() {
-  auto* const same_reset = device.reset;
+  motors.told(0);
   device = {};
-  device.reset = same_reset;
+  device.motors = &motors;
+  device.reset = &reset;
 }
 
 bool is_any_of(int type, std::initializer_list<int> types) {
@@ -33,6 +36,7 @@ bool is_any_of(int type, std::initializer_list<int> types) {
 extern "C" {
 
 feeler_test::ForceDimensionStandIn* feeler_stand_in() {
+  device.motors = &motors;
   device.reset = &reset;
   return &device;
 }
@@ -87,6 +91,7 @@ int dhdSetForceAndTorque(double fx, double fy, double fz, double tx, double ty, 
   const double torque[3] = {tx, ty, tz};
   std::copy(force, force + 3, device.force);
   std::copy(torque, torque + 3, device.torque);
+  motors.told(std::hypot(fx, fy, fz) + std::hypot(tx, ty, tz));
   return answer < 0 ? answer : (device.is_saturated ? saturated : 0);
 }
 

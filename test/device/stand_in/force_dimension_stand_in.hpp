@@ -2,9 +2,11 @@
 // its motors were told.
 #pragma once
 
+#include "motor_log.hpp"
+
 namespace feeler_test {
 
-/// One for the whole process; used from one thread.
+/// One for the whole process; used by one thread at a time, but for the log of the motors.
 struct ForceDimensionStandIn {
   // The hand, in the maker's frame: x to the user, y right, z up.
   double position[3] = {0, 0, 0};                          // [m]
@@ -31,6 +33,7 @@ struct ForceDimensionStandIn {
   bool is_open = false;
   int wrong_ids = 0;  // calls for another device than the one opened
 
+  MotorLog* motors = nullptr;
   void (*reset)() = nullptr;
 };
 

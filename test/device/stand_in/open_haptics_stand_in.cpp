@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <atomic>
 #include <chrono>
+#include <cmath>
 #include <cstdlib>
 #include <deque>
 #include <thread>
@@ -22,6 +23,7 @@ struct ErrorInformation {
 };
 
 feeler_test::OpenHapticsStandIn device;
+feeler_test::MotorLog motors;
 std::deque<unsigned int> errors;
 unsigned int (*callback)(void*) = nullptr;
 void* callback_argument = nullptr;
@@ -57,6 +59,7 @@ void reset() {
   device.error_at_update = device.calibrated_by = 0;
   device.has_no_temperature = device.never_calls_back = device.own_thread = false;
   let_go();
+  motors.told(0);
   std::fill(device.joint_torque, device.joint_torque + 3, 0.0);
   device.is_output_on = device.is_initialised = device.is_scheduler_running = false;
   device.frames = device.broken_rules = 0;
@@ -71,6 +74,7 @@ extern "C" {
 
 feeler_test::OpenHapticsStandIn* feeler_stand_in() {
   device.tick = &run_frame;
+  device.motors = &motors;
   device.reset = &reset;
   return &device;
 }
@@ -191,14 +195,15 @@ const char* hdGetString(unsigned int parameter) {
 void hdSetDoublev(unsigned int parameter, const double* values) {
   const Lock lock(device.mutex);
   keep_rule(is_in_frame);
-  double* motors = nullptr;
-  if (parameter == 0x2700) motors = device.force;
-  if (parameter == 0x2701) motors = device.torque;
-  if (parameter == 0x2704) motors = device.joint_torque;
-  if (motors == nullptr || (parameter != 0x2700 && device.output_degrees < 6)) {
+  double* axes = nullptr;
+  if (parameter == 0x2700) axes = device.force;
+  if (parameter == 0x2701) axes = device.torque;
+  if (parameter == 0x2704) axes = device.joint_torque;
+  if (axes == nullptr || (parameter != 0x2700 && device.output_degrees < 6)) {
     errors.push_back(0x100);
   } else {
-    std::copy(values, values + 3, motors);
+    std::copy(values, values + 3, axes);
+    if (parameter == 0x2700) motors.told(std::hypot(values[0], values[1], values[2]));
   }
 }
 

@@ -4,6 +4,8 @@
 
 #include <mutex>
 
+#include "motor_log.hpp"
+
 namespace feeler_test {
 
 /// One for the whole process. While `own_thread` runs the frames, take the mutex.
@@ -46,6 +48,7 @@ struct OpenHapticsStandIn {
   void (*tick)() = nullptr;
   bool own_thread =
       false;  // set before the scheduler starts: frames run on a thread of the stand-in, once a millisecond
+  MotorLog* motors = nullptr;
   void (*reset)() = nullptr;
 };
 

@@ -2,11 +2,13 @@
 #include "virtuose_stand_in.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <string>
 
 namespace {
 
 feeler_test::VirtuoseStandIn device;
+feeler_test::MotorLog motors;
 std::string address;
 
 int answer() {
@@ -14,9 +16,10 @@ int answer() {
 }
 
 void reset() {
-  auto* const same_reset = device.reset;
+  motors.told(0);
   device = {};
-  device.reset = same_reset;
+  device.motors = &motors;
+  device.reset = &reset;
 }
 
 }  // namespace
@@ -24,6 +27,7 @@ void reset() {
 extern "C" {
 
 feeler_test::VirtuoseStandIn* feeler_stand_in() {
+  device.motors = &motors;
   device.reset = &reset;
   return &device;
 }
@@ -116,6 +120,8 @@ int virtGetButton(void*, int button, int* state) {
 int virtSetForce(void*, float* wrench) {
   if (answer() != 0) return -1;
   std::copy(wrench, wrench + 6, device.wrench);
+  motors.told(
+      double(std::hypot(wrench[0], wrench[1], wrench[2]) + std::hypot(wrench[3], wrench[4], wrench[5])));
   return 0;
 }
 #endif

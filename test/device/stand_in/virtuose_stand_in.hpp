@@ -2,9 +2,11 @@
 // what its motors were told.
 #pragma once
 
+#include "motor_log.hpp"
+
 namespace feeler_test {
 
-/// One for the whole process; used from one thread.
+/// One for the whole process; used by one thread at a time, but for the log of the motors.
 struct VirtuoseStandIn {
   // The hand, in the maker's frame: x to the user, y right, z up.
   float pose[7] = {0, 0, 0, 0, 0, 0, 1};  // x, y, z [m], then the quaternion x, y, z, w
@@ -27,6 +29,7 @@ struct VirtuoseStandIn {
   bool is_open = false;
   const char* address = "";
 
+  MotorLog* motors = nullptr;
   void (*reset)() = nullptr;
 };
 

@@ -52,6 +52,11 @@ class Device {
   /// Pushes the wrench, limited to what the device can push, until the next one. No allocation.
   virtual DeviceStatus write(const DeviceWrench& wrench) noexcept = 0;
 
+  /// Takes the force away while `read` or `write` may be under way on another thread: the watchdog of the loop calls it, again and
+  /// again, while a renderer hangs. Nothing is pushed from then on before a `write` for a pose that was read later. Must not wait for
+  /// the other thread. A device with a watchdog of its own that is as fast needs none.
+  virtual void let_go() noexcept {}
+
   /// Force to zero, device released. Closing a closed device does nothing.
   virtual void close() noexcept = 0;
 

@@ -32,6 +32,7 @@ class ForceDimensionDevice final : public Device {
   /// A pose that the device has not renewed since the last call keeps its time; that is no error.
   DeviceStatus read(DeviceState& state) noexcept override;
   DeviceStatus write(const DeviceWrench& wrench) noexcept override;
+  void let_go() noexcept override;
   void close() noexcept override;
   /// An omega.6 until `open` asks the device.
   const DeviceSpecification& specification() const noexcept override;

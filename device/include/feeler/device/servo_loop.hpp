@@ -12,6 +12,7 @@
 #include "feeler/device/clock.hpp"
 #include "feeler/device/device.hpp"
 #include "feeler/device/force_safety.hpp"
+#include "feeler/device/force_watchdog.hpp"
 #include "feeler/device/passivity_control.hpp"
 #include "feeler/device/real_time.hpp"
 #include "feeler/device/servo_report.hpp"
@@ -41,7 +42,8 @@ struct ServoTick {
 /// Runs a callback at a rate, with absolute deadlines, on a thread of its own.
 ///
 /// With a device a tick is: read, render, `PassivityControl` if asked for, `ForceSafety`, write. The safety is always on. Whatever ends the loop, a force of zero is the last
-/// thing written; a device that is lost ends it.
+/// thing written; a device that is lost ends it. While the renderer hangs, a `ForceWatchdog` on a thread of its own takes the force away, three quarters of the way from the
+/// period to `latest_tick` after the last write; not with a clock that a test moves, and not from a simulated device.
 ///
 /// A tick that ends after the next deadline makes the loop skip every deadline that has passed, and counts them: catching up would push
 /// a device with old poses. After `start` returns, the loop itself does not allocate, lock or do I/O; the callback must not either.
@@ -90,7 +92,9 @@ class ServoLoop {
   void run();
   void loop();
   bool render_to_device(const ServoTick& tick);
-  void let_go() noexcept;
+  void end_force() noexcept;
+  void watch(double latest_tick);
+  bool was_let_go() noexcept;
 
   ServoSettings settings_;
   Callback callback_;
@@ -100,6 +104,8 @@ class ServoLoop {
   Render render_;
   std::unique_ptr<PassivityControl> passivity_;
   std::unique_ptr<ForceSafety> safety_;
+  std::unique_ptr<ForceWatchdog> watchdog_;
+  bool is_let_go_ = false;        // by the watchdog, and not even the rest of a fade may be pushed
   ForceSafety::Tick force_tick_;  // of the loop's thread
   std::atomic<ForceRequest> force_request_ = ForceRequest::none;
   std::atomic<ForcePhase> force_phase_ = ForcePhase::waiting;

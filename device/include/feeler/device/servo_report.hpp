@@ -20,6 +20,7 @@ struct ServoReport {
   Histogram wake_up_latency;    ///< from the deadline to the start of the callback [ns]; empty when it did not wait
   Histogram compute_time;       ///< of the callback [ns]
   ForceReport force;            ///< what the safety did; of a loop with a device
+  std::int64_t let_go = 0;      ///< how often the watchdog took the force away, because no wrench came
   PassivityReport passivity;    ///< of a loop that was asked to keep the hand passive
   std::string problem;          ///< why it ended before it was told to, as one sentence; empty if it did not
 };

@@ -33,6 +33,7 @@ class VirtuoseDevice final : public Device {
   OpenResult open() override;
   DeviceStatus read(DeviceState& state) noexcept override;
   DeviceStatus write(const DeviceWrench& wrench) noexcept override;
+  void let_go() noexcept override;
   void close() noexcept override;
   /// The library does not say which model it is: a Virtuose 6D, cut to what SOFA lets it push.
   const DeviceSpecification& specification() const noexcept override;
