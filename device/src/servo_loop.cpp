@@ -131,6 +131,11 @@ void ServoLoop::end_force() noexcept {
   if (device_ == nullptr) return;
   device_->write({});
   watchdog_.reset();
+  // What cannot be reached holds what it was told last, if its amplifiers let it: it is told to let go as soon as it listens again.
+  for (int i = 0; force_tick_.status == DeviceStatus::fault && i < 100; ++i) {
+    clock_.sleep_until(clock_.now() + 1'000'000);
+    device_->write({});
+  }
   const bool is_lost = force_tick_.status == DeviceStatus::fault || force_tick_.status == DeviceStatus::not_open;
   if (is_lost && safety_->fault() != ForceFault::device_lost) {  // it failed to push, and no tick has told the safety
     safety_->step(force_tick_);

@@ -1,26 +1,16 @@
 // Every fault of every maker's device, through the whole of loop, safety, driver and library: no force is
 // left on, and a sentence says why.
-//
-// Time is scripted: the loop ticks on whole milliseconds, the device on half ones.
 #include <boost/test/unit_test.hpp>
 
 #include <algorithm>
-#include <cstdint>
 #include <functional>
 #include <limits>
-#include <memory>
 #include <stdexcept>
 #include <string>
 #include <vector>
 
-#include "feeler/device/force_dimension_device.hpp"
-#include "feeler/device/open_haptics_device.hpp"
+#include "device/scripted_makers.hpp"
 #include "feeler/device/servo_loop.hpp"
-#include "feeler/device/virtuose_device.hpp"
-#include "stand_in/force_dimension_stand_in.hpp"
-#include "stand_in/open_haptics_stand_in.hpp"
-#include "stand_in/stand_in.hpp"
-#include "stand_in/virtuose_stand_in.hpp"
 
 BOOST_AUTO_TEST_SUITE(force_faults)
 
@@ -29,84 +19,10 @@ using feeler::DeviceWrench;
 using feeler::ForceFault;
 using feeler::ServoLoop;
 using feeler::ServoTick;
+using feeler_test::Maker;
+using feeler_test::World;
 
 namespace {
-
-constexpr std::int64_t half_millisecond = 500'000;
-
-/// A clock that makes the world go on while the loop sleeps or works.
-class World final : public feeler::Clock {
- public:
-  std::function<void()> frame = [] {};  // of the device, on half milliseconds
-  std::function<bool()> is_silent = [] { return true; };
-  std::vector<bool> was_silent;  // at each half millisecond since the start
-
-  std::int64_t now() noexcept override { return now_; }
-  void sleep_until(std::int64_t moment) noexcept override {
-    while (now_ < moment) go_on();
-  }
-  void spend(int milliseconds) {
-    for (int i = 0; i < 2 * milliseconds; ++i) go_on();
-  }
-  int half_milliseconds() const { return int(was_silent.size()); }
-
- private:
-  void go_on() {
-    now_ += half_millisecond;
-    if (now_ / half_millisecond % 2 == 1) frame();
-    was_silent.push_back(is_silent());
-  }
-  std::int64_t now_ = 1'000'000'000;
-};
-
-/// A maker's device over its stand-in, with its motors watched.
-struct Maker {
-  std::unique_ptr<feeler::Device> device;
-  feeler_test::OpenHapticsStandIn* hd = nullptr;
-  feeler_test::ForceDimensionStandIn* dhd = nullptr;
-  feeler_test::VirtuoseStandIn* virtuose = nullptr;
-};
-
-bool is_zero(const double (&v)[3]) {
-  return v[0] == 0 && v[1] == 0 && v[2] == 0;
-}
-
-Maker open_haptics(World& world) {
-  Maker maker;
-  auto& hd = feeler_test::stand_in<feeler_test::OpenHapticsStandIn>(FEELER_OPEN_HAPTICS_STAND_IN);
-  maker.hd = &hd;
-  maker.device = std::make_unique<feeler::OpenHapticsDevice>(
-      feeler::OpenHapticsSettings{{FEELER_OPEN_HAPTICS_STAND_IN}, ""}, &world);
-  world.frame = [&hd] { hd.tick(); };
-  world.is_silent = [&hd] { return is_zero(hd.force) && is_zero(hd.torque); };
-  return maker;
-}
-
-Maker force_dimension(World& world) {
-  Maker maker;
-  auto& dhd = feeler_test::stand_in<feeler_test::ForceDimensionStandIn>(FEELER_FORCE_DIMENSION_STAND_IN);
-  maker.dhd = &dhd;
-  maker.device = std::make_unique<feeler::ForceDimensionDevice>(
-      feeler::ForceDimensionSettings{{FEELER_FORCE_DIMENSION_STAND_IN}}, &world);
-  world.is_silent = [&dhd] { return is_zero(dhd.force) && is_zero(dhd.torque); };
-  return maker;
-}
-
-Maker virtuose(World& world) {
-  Maker maker;
-  auto& controller = feeler_test::stand_in<feeler_test::VirtuoseStandIn>(FEELER_VIRTUOSE_STAND_IN);
-  maker.virtuose = &controller;
-  feeler::VirtuoseSettings settings;
-  settings.libraries = {FEELER_VIRTUOSE_STAND_IN};
-  maker.device = std::make_unique<feeler::VirtuoseDevice>(settings, &world);
-  world.is_silent = [&controller] {
-    for (const float component : controller.wrench) {
-      if (component != 0) return false;
-    }
-    return true;
-  };
-  return maker;
-}
 
 /// What happens in the tick of the fault, from within the renderer; it may return a wrench of its own.
 using Fault = std::function<DeviceWrench(Maker&, ServoLoop&, World&)>;
@@ -118,6 +34,7 @@ constexpr int last_tick = 560;
 struct Outcome {
   feeler::ServoReport report;
   bool pushed_before = false;
+  int silent_at = 0;                     // after the fault, in half milliseconds of the world
   int half_milliseconds_to_silence = 0;  // from the fault on
   bool stayed_silent = false;            // up to the end, or to `ticks_watched` after the fault
 };
@@ -152,6 +69,7 @@ Outcome run(Maker (*make)(World&), const Fault& fault) {
   outcome.pushed_before = !silent[std::size_t(fault_at) - 1];
   std::size_t first = std::size_t(fault_at);
   while (first < silent.size() && !silent[first]) ++first;
+  outcome.silent_at = int(first);
   outcome.half_milliseconds_to_silence = int(first) - fault_at;
   outcome.stayed_silent = true;
   for (std::size_t i = first; i < silent.size(); ++i)
@@ -170,7 +88,9 @@ void check_silenced(const Outcome& outcome, ForceFault fault) {
 }
 
 const std::vector<std::pair<const char*, Maker (*)(World&)>> makers = {
-    {"OpenHaptics", &open_haptics}, {"Force Dimension", &force_dimension}, {"Virtuose", &virtuose}};
+    {"OpenHaptics", &feeler_test::open_haptics},
+    {"Force Dimension", &feeler_test::force_dimension},
+    {"Virtuose", &feeler_test::virtuose}};
 
 }  // namespace
 
@@ -231,7 +151,7 @@ BOOST_AUTO_TEST_CASE(force_errors_of_open_haptics_end_in_silence) {
   for (const unsigned int error : {0x200u, 0x201u, 0x202u, 0x203u, 0x204u}) {
     for (const bool after_push : {false, true}) {
       BOOST_TEST_CONTEXT("error " << error << (after_push ? " after" : " before") << " the push") {
-        const auto outcome = run(&open_haptics, [=](Maker& maker, ServoLoop&, World&) {
+        const auto outcome = run(&feeler_test::open_haptics, [=](Maker& maker, ServoLoop&, World&) {
           (after_push ? maker.hd->error_after_push : maker.hd->error_in_next_frame) = error;
           return contact;
         });
@@ -244,7 +164,7 @@ BOOST_AUTO_TEST_CASE(force_errors_of_open_haptics_end_in_silence) {
 }
 
 BOOST_AUTO_TEST_CASE(warm_motors_of_open_haptics_end_in_silence) {
-  check_silenced(run(&open_haptics,
+  check_silenced(run(&feeler_test::open_haptics,
                      [](Maker& maker, ServoLoop&, World&) {
                        maker.hd->temperatures[2] = 1;
                        return contact;
@@ -254,7 +174,7 @@ BOOST_AUTO_TEST_CASE(warm_motors_of_open_haptics_end_in_silence) {
 
 BOOST_AUTO_TEST_CASE(a_lost_open_haptics_device_ends_in_silence_and_a_sentence) {
   for (const bool is_error : {true, false}) {
-    const auto outcome = run(&open_haptics, [=](Maker& maker, ServoLoop&, World&) {
+    const auto outcome = run(&feeler_test::open_haptics, [=](Maker& maker, ServoLoop&, World&) {
       if (is_error) {
         maker.hd->error_in_next_frame = 0x302;
       } else {
@@ -271,7 +191,7 @@ BOOST_AUTO_TEST_CASE(a_lost_open_haptics_device_ends_in_silence_and_a_sentence) 
 }
 
 BOOST_AUTO_TEST_CASE(a_renderer_that_hangs_is_silenced_by_the_servo_thread_of_open_haptics) {
-  const auto outcome = run(&open_haptics, [](Maker&, ServoLoop&, World& world) {
+  const auto outcome = run(&feeler_test::open_haptics, [](Maker&, ServoLoop&, World& world) {
     world.spend(20);
     return contact;
   });
@@ -309,7 +229,7 @@ BOOST_AUTO_TEST_CASE(a_renderer_that_hung_does_not_push_for_the_pose_that_it_beg
 BOOST_AUTO_TEST_CASE(a_servo_thread_that_stops_is_found_out_and_finds_no_force_when_it_goes_on) {
   int return_at = 0;
   bool was_silent_then = false;
-  const auto outcome = run(&open_haptics, [&](Maker&, ServoLoop&, World& world) {
+  const auto outcome = run(&feeler_test::open_haptics, [&](Maker&, ServoLoop&, World& world) {
     // Meanwhile nobody can push anew, or stop pushing: the amplifiers have a watchdog of their own.
     world.frame = [&world, &return_at, &was_silent_then, frame = world.frame, missing = 20]() mutable {
       if (missing-- > 0) return;
@@ -325,7 +245,7 @@ BOOST_AUTO_TEST_CASE(a_servo_thread_that_stops_is_found_out_and_finds_no_force_w
 }
 
 BOOST_AUTO_TEST_CASE(a_lost_force_dimension_device_ends_in_silence_and_a_sentence) {
-  const auto outcome = run(&force_dimension, [](Maker& maker, ServoLoop&, World&) {
+  const auto outcome = run(&feeler_test::force_dimension, [](Maker& maker, ServoLoop&, World&) {
     maker.dhd->frame[1][1] = std::numeric_limits<double>::quiet_NaN();
     return contact;
   });
@@ -333,8 +253,41 @@ BOOST_AUTO_TEST_CASE(a_lost_force_dimension_device_ends_in_silence_and_a_sentenc
   BOOST_TEST(outcome.report.problem.find("a pose that is none") != std::string::npos);
 }
 
+BOOST_AUTO_TEST_CASE(a_cable_that_comes_off_is_told_and_a_device_that_comes_back_lets_go) {
+  struct Cable {
+    Maker (*make)(World&);
+    void (*plug)(Maker&, bool);
+    const char* words;
+  };
+  const Cable cables[] = {
+      {&feeler_test::force_dimension, [](Maker& maker, bool is_in) { maker.dhd->is_unplugged = !is_in; },
+       "communication error"},
+      {&feeler_test::virtuose, [](Maker& maker, bool is_in) { maker.virtuose->is_unplugged = !is_in; },
+       "network cable"}};
+  for (const Cable& cable : cables) {
+    int back_at = 0;
+    const auto outcome = run(cable.make, [&](Maker& maker, ServoLoop&, World& world) {
+      cable.plug(maker, false);
+      world.frame = [&, missing = 20]() mutable {
+        if (missing-- != 0) return;
+        cable.plug(maker, true);
+        back_at = world.half_milliseconds();
+      };
+      return contact;
+    });
+    // Without its cable, the stand-in holds the last force: nobody can reach it. It is silent 2 ms after it
+    // is back.
+    BOOST_TEST(back_at > 0);
+    BOOST_TEST(outcome.silent_at - back_at <= 3);
+    BOOST_TEST(outcome.stayed_silent);
+    BOOST_TEST((outcome.report.force.first_fault == ForceFault::device_lost));
+    BOOST_TEST(outcome.report.problem.find("The device was lost, so the force is off") == 0u);
+    BOOST_TEST(outcome.report.problem.find(cable.words) != std::string::npos, outcome.report.problem);
+  }
+}
+
 BOOST_AUTO_TEST_CASE(a_force_dimension_device_that_only_answers_with_its_time_guard_ends_in_silence) {
-  const auto outcome = run(&force_dimension, [](Maker& maker, ServoLoop&, World&) {
+  const auto outcome = run(&feeler_test::force_dimension, [](Maker& maker, ServoLoop&, World&) {
     maker.dhd->has_nothing_new = true;
     return contact;
   });
@@ -351,7 +304,7 @@ BOOST_AUTO_TEST_CASE(what_hinders_a_virtuose_ends_in_silence) {
       [](auto& controller) { controller.is_powered = false; },
       [](auto& controller) { controller.is_held = false; }};
   for (const auto hinder : hindrances) {
-    const auto outcome = run(&virtuose, [=](Maker& maker, ServoLoop&, World&) {
+    const auto outcome = run(&feeler_test::virtuose, [=](Maker& maker, ServoLoop&, World&) {
       hinder(*maker.virtuose);
       return contact;
     });
@@ -361,7 +314,7 @@ BOOST_AUTO_TEST_CASE(what_hinders_a_virtuose_ends_in_silence) {
 }
 
 BOOST_AUTO_TEST_CASE(a_virtuose_with_a_broken_pose_ends_in_silence_and_a_sentence) {
-  const auto outcome = run(&virtuose, [](Maker& maker, ServoLoop&, World&) {
+  const auto outcome = run(&feeler_test::virtuose, [](Maker& maker, ServoLoop&, World&) {
     maker.virtuose->pose[3] = 3;
     return contact;
   });
