@@ -38,7 +38,8 @@ void run_fast(DeviceSpecification& device) {
 }  // namespace
 
 // confirmed: read in a public driver or manual. recalled: from a datasheet, not confirmed. assumed: no
-// source, a plausible value.
+// source, a plausible value. measured: half of the largest stiffness that is stable in every simulated hand
+// on every scene at 1 kHz (docs/stability.md), where what drivers or makers state is more than that.
 DeviceSpecification phantom_premium_3_0_6dof() {
   DeviceSpecification device;
   device.name = "Phantom Premium 3.0/6DOF";
@@ -54,7 +55,7 @@ DeviceSpecification phantom_premium_3_0_6dof() {
   device.continuous_torque = 0.048;  // recalled: roll; 0.188 for yaw and pitch
 
   device.stiffness = 1000;            // confirmed (CHAI3D)
-  device.rotational_stiffness = 0.3;  // confirmed (CHAI3D)
+  device.rotational_stiffness = 0.3;  // confirmed (CHAI3D), and nine tenths of what is stable in every hand
 
   device.workspace = {0.838, 0.584, 0.406};     // recalled
   device.position_resolution = 0.02e-3;         // recalled: 0.02 mm
@@ -76,18 +77,19 @@ DeviceSpecification phantom_premium_1_5_6dof() {
   device.name = "Phantom Premium 1.5/6DOF";
   device.maximum_force = 8.5;     // confirmed (CHAI3D)
   device.continuous_force = 1.4;  // recalled
-  device.stiffness = 800;  // confirmed (CHAI3D); the datasheet recalls 3500, more than its encoders carry
+  device.stiffness = 700;  // measured; CHAI3D states 800, the datasheet recalls 3500: its encoders would hum
   device.workspace = {0.381, 0.267, 0.191};  // recalled
   device.position_resolution = 0.03e-3;      // recalled
   device.friction = 0.04;                    // recalled
   device.apparent_mass = 0.136;              // recalled
-  device.damping = 0.4;                      // assumed: K T / 2
+  device.damping = 0.4;                      // assumed: K T / 2 of CHAI3D's K
   return device;
 }
 
 DeviceSpecification phantom_premium_1_5_high_force_6dof() {
   DeviceSpecification device = phantom_premium_1_5_6dof();
   device.name = "Phantom Premium 1.5 High Force/6DOF";
+  device.stiffness = 800;                 // confirmed (CHAI3D, of the other 1.5)
   device.maximum_force = 37.5;            // recalled
   device.continuous_force = 6.2;          // recalled
   device.position_resolution = 0.007e-3;  // recalled
@@ -115,12 +117,12 @@ DeviceSpecification touch_x() {
   device.name = "Touch X";
   device.maximum_force = 7.9;                  // confirmed (CHAI3D)
   device.continuous_force = 1.75;              // recalled
-  device.stiffness = 1000;                     // confirmed (CHAI3D)
+  device.stiffness = 500;                      // measured; CHAI3D states 1000
   device.workspace = {0.160, 0.120, 0.120};    // recalled
   device.position_resolution = 0.023e-3;       // recalled
   device.rotation_resolution = 0.02 * degree;  // assumed: encoders
   device.friction = 0.06;                      // recalled
-  device.damping = 0.5;                        // assumed: K T / 2
+  device.damping = 0.5;                        // assumed: K T / 2 of CHAI3D's K
   return device;
 }
 
@@ -129,13 +131,13 @@ DeviceSpecification omega_6() {
   run_fast(device);
   device.maximum_force = 12;                   // confirmed (CHAI3D)
   device.continuous_force = 3;                 // assumed: a quarter
-  device.stiffness = 5000;                     // confirmed (CHAI3D); the datasheet recalls 14500
+  device.stiffness = 2900;                     // measured; CHAI3D states 5000, the datasheet recalls 14500
   device.workspace = {0.160, 0.160, 0.110};    // recalled
   device.position_resolution = 0.01e-3;        // recalled, an upper bound
   device.rotation_resolution = 0.09 * degree;  // recalled
   device.friction = 0.1;                       // assumed
   device.apparent_mass = 0.2;                  // assumed
-  device.damping = 2.5;                        // assumed: K T / 2
+  device.damping = 2.5;                        // assumed: K T / 2 of CHAI3D's K
   return device;
 }
 
@@ -159,13 +161,13 @@ DeviceSpecification sigma_7() {
   device.continuous_force = 3;                  // assumed: a quarter
   device.maximum_torque = 0.2;                  // confirmed (CHAI3D); the datasheet recalls 0.4
   device.continuous_torque = 0.05;              // assumed: a quarter
-  device.stiffness = 4000;                      // confirmed (CHAI3D)
-  device.rotational_stiffness = 1.0;            // confirmed (CHAI3D)
+  device.stiffness = 2200;                      // measured; CHAI3D states 4000
+  device.rotational_stiffness = 0.24;           // measured; CHAI3D states 1
   device.workspace = {0.190, 0.190, 0.130};     // recalled
   device.position_resolution = 0.0015e-3;       // recalled
   device.rotation_resolution = 0.013 * degree;  // recalled
-  device.damping = 2;                           // assumed: K T / 2
-  device.rotational_damping = 5e-4;             // assumed: K T / 2
+  device.damping = 2;                           // assumed: K T / 2 of CHAI3D's K
+  device.rotational_damping = 5e-4;             // assumed: the same
   device.is_pushed = {true, true, true, true, true, true};
   return device;
 }
@@ -173,9 +175,9 @@ DeviceSpecification sigma_7() {
 DeviceSpecification lambda_7() {
   DeviceSpecification device = sigma_7();
   device.name = "lambda.7";
-  device.stiffness = 8000;                   // confirmed (CHAI3D)
+  device.stiffness = 3300;                   // measured; CHAI3D states 8000
   device.workspace = {0.240, 0.240, 0.170};  // recalled, weakly
-  device.damping = 4;                        // assumed: K T / 2
+  device.damping = 4;                        // assumed: K T / 2 of CHAI3D's K
   return device;
 }
 
@@ -214,7 +216,7 @@ DeviceSpecification virtuose_6d() {
   device.maximum_torque = 0.7;                 // confirmed (SOFA saturates there); recalled 3.1
   device.continuous_torque = 0.7;              // recalled 1.0, cut to the maximum
   device.stiffness = 2000;                     // recalled
-  device.rotational_stiffness = 30;            // recalled
+  device.rotational_stiffness = 5;             // measured; recalled 30
   device.workspace = {0.45, 0.45, 0.45};       // recalled
   device.position_resolution = 0.01e-3;        // assumed
   device.rotation_resolution = 0.01 * degree;  // assumed
@@ -222,7 +224,7 @@ DeviceSpecification virtuose_6d() {
   device.apparent_mass = 0.5;                  // assumed
   device.apparent_inertia = 2e-3;              // assumed
   device.damping = 1;                          // assumed: K T / 2
-  device.rotational_damping = 0.015;           // assumed: K T / 2
+  device.rotational_damping = 0.015;           // assumed: K T / 2 of the recalled K
   device.is_pushed = {true, true, true, true, true, true};
   return device;
 }
@@ -235,11 +237,12 @@ DeviceSpecification virtuose_6d_desktop() {
   device.maximum_torque = 0.8;            // recalled
   device.continuous_torque = 0.2;         // recalled
   device.stiffness = 1000;                // assumed
-  device.rotational_stiffness = 1;        // assumed
+  device.rotational_stiffness = 0.27;     // measured, with inertia and damping as assumed below
   device.workspace = {0.12, 0.12, 0.12};  // recalled: a sphere
   device.apparent_mass = 0.2;             // assumed
+  device.apparent_inertia = 8e-4;         // assumed: less than that of the larger one, as its mass
   device.damping = 0.5;                   // assumed: K T / 2
-  device.rotational_damping = 5e-4;       // assumed: K T / 2
+  device.rotational_damping = 5e-4;       // assumed: K T / 2 of 1 N·m/rad
   return device;
 }
 

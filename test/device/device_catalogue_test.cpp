@@ -30,7 +30,7 @@ BOOST_AUTO_TEST_CASE(a_listing_says_what_a_device_can_or_why_there_is_none) {
   const auto device = feeler::make_device(feeler::Maker::force_dimension, FEELER_FORCE_DIMENSION_STAND_IN);
   BOOST_REQUIRE(bool(device->open()));
   BOOST_TEST(to_string(feeler::DeviceListing{feeler::Maker::force_dimension, device->specification(), ""}) ==
-             "forcedimension: sigma.7, 12 N (3 N for ever), 0.2 N m, 4000 N/m\n");
+             "forcedimension: sigma.7, 12 N (3 N for ever), 0.2 N m, 2200 N/m\n");
   BOOST_TEST(to_string(feeler::DeviceListing{feeler::Maker::open_haptics, feeler::touch(), ""}) ==
              "openhaptics: Touch, 3.3 N (0.88 N for ever), force-only, 400 N/m\n");
   BOOST_TEST(to_string(feeler::DeviceListing{feeler::Maker::virtuose, {}, "No cable."}) ==
