@@ -2,12 +2,12 @@
 // run under load.
 #include <cstdint>
 #include <cstdio>
-#include <exception>
 #include <filesystem>
 #include <string>
 
 #include <CLI/CLI.hpp>
 
+#include "command_line.hpp"
 #include "feeler/device/conversion.hpp"
 #include "feeler/device/servo_loop.hpp"
 #include "feeler/device/simulated_phantom.hpp"
@@ -61,22 +61,12 @@ int main(int argc, char** argv) {
   double rate = 1000, seconds = 600;
   int processor = -1;
   std::string histogram;
-  CLI::App app("feeler-servo-load: how late the servo loop is, over minutes; load the machine beside it");
+  CLI::App app("How late the servo loop is, over minutes; load the machine beside it.", "feeler-servo-load");
   app.add_option("--rate", rate, "of the loop [Hz]")->check(CLI::Range(10.0, 20000.0))->capture_default_str();
   app.add_option("--seconds", seconds, "to run")->check(CLI::Range(0.01, 1e5))->capture_default_str();
   app.add_option("--processor", processor, "to run on; -1 for any")
       ->check(CLI::Range(-1, 4095))
       ->capture_default_str();
   app.add_option("--histogram", histogram, "file for the wake-up latencies as CSV");
-  try {
-    app.parse(argc, argv);
-  } catch (const CLI::ParseError& problem) {
-    return app.exit(problem) == 0 ? 0 : 2;
-  }
-  try {
-    return run(rate, seconds, processor, histogram);
-  } catch (const std::exception& problem) {
-    std::fprintf(stderr, "feeler-servo-load: %s\n", problem.what());
-    return 2;
-  }
+  return feeler::bench::run_with_options(app, argc, argv, [&] { return run(rate, seconds, processor, histogram); });
 }

@@ -2,12 +2,12 @@
 // searches for the limit.
 #include <cstdio>
 #include <filesystem>
-#include <stdexcept>
 #include <string>
 #include <vector>
 
 #include <CLI/CLI.hpp>
 
+#include "command_line.hpp"
 #include "experiments/plots.hpp"
 #include "stability/grips.hpp"
 #include "stability/studies.hpp"
@@ -63,8 +63,7 @@ int main(int argc, char** argv) {
   for (const auto& grip : grips) grip_names.emplace_back(grip.name);
   options.rates = {1000, 2000, 4000, 10000};
 
-  CLI::App app(
-      "feeler-stability: the largest stable stiffness of a device in a hand, and how much it buzzes");
+  CLI::App app("The largest stable stiffness of a device in a hand, and how much it buzzes.", "feeler-stability");
   app.add_option("--study", study,
                  "all, presets, limits, rivals, slides, extrapolation, passivity, theory, traces, or figures "
                  "of what is in the folder")
@@ -83,12 +82,7 @@ int main(int argc, char** argv) {
   app.add_flag("--no-friction", has_no_friction, "without the Coulomb friction of the device");
   app.add_flag("--no-figures", has_no_figures, "write CSV files and tables only");
   app.add_option("--out", folder, "folder of the CSV files, tables and figures");
-  try {
-    app.parse(argc, argv);
-  } catch (const CLI::ParseError& problem) {
-    return app.exit(problem) == 0 ? 0 : 2;
-  }
-  try {
+  return feeler::bench::run_with_options(app, argc, argv, [&] {
     options.folder = folder;
     options.has_friction = !has_no_friction;
     std::filesystem::create_directories(options.folder);
@@ -119,9 +113,6 @@ int main(int argc, char** argv) {
                    unstable);
       return 1;
     }
-  } catch (const std::exception& problem) {
-    std::fprintf(stderr, "feeler-stability: %s\n", problem.what());
-    return 2;
-  }
-  return 0;
+    return 0;
+  });
 }
