@@ -23,9 +23,9 @@ class PlaneCache {
   static constexpr int capacity = 16;
 
   int size() const noexcept { return size_; }
-  const Vector3<Scalar>& normal(int i) const noexcept { return normals_[index(i)]; }
-  Scalar limit(int i) const noexcept { return limits_[index(i)]; }
-  void count_hit(int i) noexcept { ++hits_[index(i)]; }
+  const Vector3<Scalar>& normal(int i) const noexcept { return planes_[index(i)].normal; }
+  Scalar limit(int i) const noexcept { return planes_[index(i)].limit; }
+  void count_hit(int i) noexcept { ++planes_[index(i)].hits; }
   void clear() noexcept { size_ = 0; }
 
   /// Adds a plane in place of the least useful one and finds its limit; returns its position.
@@ -35,38 +35,34 @@ class PlaneCache {
     int place = size_ < capacity ? size_++ : 0;
     if (size_ == capacity && place == 0) {
       for (int i = 1; i < capacity; ++i) {
-        if (hits_[index(i)] < hits_[index(place)]) place = i;
+        if (planes_[index(i)].hits < planes_[index(place)].hits) place = i;
       }
     }
-    normals_[index(place)] = normal;
-    hits_[index(place)] = 4;
-    measure(place, moving, start, end, kept);
+    Plane& plane = planes_[index(place)];
+    plane.normal = normal;
+    plane.hits = 4;
+    plane.measure(moving, start, end, kept);
     return place;
   }
 
   /// Whether a plane parts the tool over the whole motion from what is up to `height` high along it, though it may not be `kept` away.
   bool parts_closely(int i, Scalar height, const Clearance<Scalar>& clearance) const noexcept {
-    const Scalar slack = least_[index(i)] - height;
-    return slack >= -2 * clearance.allowance && slack >= clearance.required(starts_[index(i)] - height);
+    const Plane& plane = planes_[index(i)];
+    const Scalar slack = plane.least - height;
+    return slack >= -2 * clearance.allowance && slack >= clearance.required(plane.start - height);
   }
 
   /// Finds the limits for a motion.
   template <class Moving>
   void prepare(const Moving& moving, const MotionFrame<Scalar>& start, const MotionFrame<Scalar>& end,
                Scalar kept) noexcept {
-    for (int i = 0; i < size_; ++i) measure(i, moving, start, end, kept);
+    for (int i = 0; i < size_; ++i) planes_[index(i)].measure(moving, start, end, kept);
   }
   /// Halves the hits and brings the most useful planes to the front.
   void age() noexcept {
-    for (int i = 0; i < size_; ++i) hits_[index(i)] /= 2;
+    for (int i = 0; i < size_; ++i) planes_[index(i)].hits /= 2;
     for (int i = 1; i < size_; ++i) {
-      for (int k = i; k > 0 && hits_[index(k)] > hits_[index(k - 1)]; --k) {
-        std::swap(hits_[index(k)], hits_[index(k - 1)]);
-        std::swap(normals_[index(k)], normals_[index(k - 1)]);
-        std::swap(limits_[index(k)], limits_[index(k - 1)]);
-        std::swap(starts_[index(k)], starts_[index(k - 1)]);
-        std::swap(least_[index(k)], least_[index(k - 1)]);
-      }
+      for (int k = i; k > 0 && planes_[index(k)].hits > planes_[index(k - 1)].hits; --k) std::swap(planes_[index(k)], planes_[index(k - 1)]);
     }
   }
 
@@ -79,13 +75,20 @@ class PlaneCache {
  private:
   static std::size_t index(int i) noexcept { return std::size_t(i); }
 
-  template <class Moving>
-  void measure(int i, const Moving& moving, const MotionFrame<Scalar>& start, const MotionFrame<Scalar>& end, Scalar kept) noexcept {
-    const Vector3<Scalar>& normal = normals_[index(i)];
-    starts_[index(i)] = moving.lowest(normal, start);
-    least_[index(i)] = least_height(starts_[index(i)], moving.lowest(normal, end), moving.sagitta(normal, end.time - start.time));
-    limits_[index(i)] = least_[index(i)] - kept;
-  }
+  struct Plane {
+    Vector3<Scalar> normal;
+    Scalar start;  // height of the tool's lowest point at the start
+    Scalar least;  // below which it does not come
+    Scalar limit;
+    int hits = 0;
+
+    template <class Moving>
+    void measure(const Moving& moving, const MotionFrame<Scalar>& from, const MotionFrame<Scalar>& to, Scalar kept) noexcept {
+      start = moving.lowest(normal, from);
+      least = least_height(start, moving.lowest(normal, to), moving.sagitta(normal, to.time - from.time));
+      limit = least - kept;
+    }
+  };
 
   /// Below which the tool certainly does not come.
   static Scalar least_height(Scalar at_start, Scalar at_end, Scalar sagitta) noexcept {
@@ -100,11 +103,7 @@ class PlaneCache {
   }
 
   int size_ = 0;
-  std::array<Vector3<Scalar>, capacity> normals_;
-  std::array<Scalar, capacity> limits_;
-  std::array<Scalar, capacity> starts_;  // height of the tool's lowest point at the start
-  std::array<Scalar, capacity> least_;   // below which it does not come
-  std::array<int, capacity> hits_{};
+  std::array<Plane, capacity> planes_;
 };
 
 }  // namespace feeler

@@ -7,8 +7,8 @@
 #include <type_traits>
 
 #include "feeler/object/triangle_mesh.hpp"
-#include "feeler/proximity/motion.hpp"
 #include "feeler/proximity/clearance.hpp"
+#include "feeler/proximity/motion.hpp"
 #include "feeler/proximity/separation.hpp"
 #include "feeler/render/idle_turns.hpp"
 #include "feeler/render/settings.hpp"
