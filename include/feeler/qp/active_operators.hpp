@@ -12,112 +12,125 @@
 
 namespace feeler::detail {
 
-/// P = H⁻¹ − H⁻¹N(NᵀH⁻¹N)⁻¹NᵀH⁻¹ and N* = (NᵀH⁻¹N)⁻¹NᵀH⁻¹ of the active rows N, in up to six slots.
+/// P = H⁻¹ − H⁻¹N(NᵀH⁻¹N)⁻¹NᵀH⁻¹ and N* = (NᵀH⁻¹N)⁻¹NᵀH⁻¹ of up to six active rows N, in slots.
 ///
-/// Source: D. Goldfarb, A. Idnani, Mathematical Programming 27 (1983), section 3. The two are kept as one
-/// matrix of twelve rows, P over N*: one product gives both images of a vector, and adding or dropping a row
-/// changes it by one outer product. Rows of N* in free slots are zero.
+/// Source: D. Goldfarb, A. Idnani, Mathematical Programming 27 (1983), section 3. Both are kept by columns:
+/// one pass gives both images of a vector, and adding or dropping a row changes both by outer products. The
+/// slots in use are the first ones, and only their share of N* is computed.
 template <RealScalar Scalar, int lanes>
 class ActiveOperators {
  public:
+  using Group = Lanes<Scalar, lanes>;
   static constexpr int slot_count = 6;
+  /// Six numbers, in whole groups.
+  using Column = std::array<Scalar, lanes <= 2 ? 6 : 8>;
 
-  /// The images of a vector: `step` is P·v, and `share` is N*·v, a number a slot.
+  /// The images of a vector: `step` is P·v, and `share` is N*·v, a number a slot; behind the slots in use it
+  /// is some number.
   struct Image {
-    const Scalar& step(int j) const noexcept { return entries[index(j)]; }
-    const Scalar& share(int slot) const noexcept { return entries[index(6 + slot)]; }
-    Six<Scalar> step() const noexcept {
-      return {entries[0], entries[1], entries[2], entries[3], entries[4], entries[5]};
-    }
-    alignas(64) std::array<Scalar, 16> entries;
+    alignas(64) Column step{};
+    alignas(64) Column share{};
   };
+
+  /// Sets one number of a column.
+  static void set(Column& column, int i, const Scalar& value) noexcept {
+    const int first = i - i % lanes;
+    Scalar* const group = &column[index(first)];
+    store(group, with_lane<Scalar, lanes>(load<Group>(group), i - first, value));
+  }
 
   /// Nothing active: P is H⁻¹.
   void reset(const InverseHessian<Scalar>& inverse) noexcept {
-    is_used_.fill(false);
     used_ = 0;
-    clear(inverse);
+    if (inverse.is_diagonal()) {
+      for (int j = 0; j < 6; ++j) {
+        Column& column = projector_[index(j)];
+        for (int g = 0; g < 6; g += lanes)
+          store(&column[index(g)], with_lane<Scalar, lanes>(Group{}, j - g, inverse.diagonal()[index(j)]));
+      }
+    } else {
+      for (std::size_t j = 0; j < 6; ++j) std::copy_n(inverse.matrix()[j].begin(), 6, projector_[j].begin());
+    }
   }
 
   int used() const noexcept { return used_; }
-  bool is_used(int slot) const noexcept { return is_used_[index(slot)]; }
-  int free_slot() const noexcept {
-    int slot = 0;
-    while (is_used(slot)) ++slot;
-    return slot;
-  }
   const Six<Scalar>& normal(int slot) const noexcept { return normals_[index(slot)]; }
   /// Row of N*: the step that moves along this active row by one and along no other.
   Six<Scalar> dual(int slot) const noexcept {
     Six<Scalar> row;
-    for (std::size_t j = 0; j < 6; ++j) row[j] = columns_[j][index(6 + slot)];
+    for (std::size_t j = 0; j < 6; ++j) row[j] = duals_[j][index(slot)];
     return row;
   }
   SixBySix<Scalar> projector() const noexcept {
     SixBySix<Scalar> p;
-    for (std::size_t j = 0; j < 6; ++j) std::copy_n(columns_[j].begin(), 6, p[j].begin());
+    for (std::size_t j = 0; j < 6; ++j) std::copy_n(projector_[j].begin(), 6, p[j].begin());
     return p;
   }
 
   void apply(const Six<Scalar>& v, Image& image) const noexcept {
     SixGroups at;
     for (std::size_t j = 0; j < 6; ++j) at[j] = spread<Group>(v[j]);
-    for (std::size_t g = 0; g < rows; g += std::size_t(lanes)) {
-      SixGroups column;
-      for (std::size_t j = 0; j < 6; ++j) column[j] = load<Group>(&columns_[j][g]);
-      store(&image.entries[g], dot_of_six<Group>(column, at));
-    }
+    multiply_columns(projector_, 6, at, image.step);
+    multiply_columns(duals_, used_, at, image.share);
   }
 
   /// Removes from P·v what rounding left of it along the active rows.
   void project_again(Image& image) const noexcept {
-    const Six<Scalar> z = image.step();
     Six<Scalar> along{};
-    for (int i = 0; i < slot_count; ++i) {
-      if (is_used(i)) along[index(i)] = dot(normal(i), z);
-    }
+    for (int i = 0; i < used_; ++i) along[index(i)] = dot_of_six<Scalar>(normal(i), image.step);
     const Six<Scalar> excess = step_of(along);
-    for (std::size_t j = 0; j < 6; ++j) image.entries[j] -= excess[j];
+    for (std::size_t j = 0; j < 6; ++j) image.step[j] -= excess[j];
   }
 
   /// N*ᵀ·w: the shortest step that moves along each active row by w.
   Six<Scalar> step_of(const Six<Scalar>& along) const noexcept {
-    Six<Scalar> step;
-    for (std::size_t j = 0; j < 6; ++j) step[j] = dot_of_six<Scalar>(&columns_[j][6], along);
+    Six<Scalar> step{};
+    for (std::size_t i = 0; i < index(used_); ++i) {
+      for (std::size_t j = 0; j < 6; ++j) step[j] += product(along[i], duals_[j][i]);
+    }
     return step;
   }
 
-  /// Makes a row active in a free slot.
-  /// @param image  of the row; spent
+  /// Makes a row active, in the slot behind those in use.
+  /// @param image  of the row
   /// @param slope  row · P · row, positive
-  void add(int slot, const Six<Scalar>& row, Image& image, const Scalar& slope) noexcept {
-    normals_[index(slot)] = row;
-    is_used_[index(slot)] = true;
-    ++used_;
-    Six<Scalar> direction = image.step();
+  void add(const Six<Scalar>& row, const Image& image, const Scalar& slope) noexcept {
     const Scalar factor = Scalar(1) / slope;
-    for (Scalar& entry : direction) entry *= factor;
-    image.entries[index(6 + slot)] = Scalar(-1);  // so that the new row of N* becomes the direction
-    subtract_outer(image, direction);
+    Six<Scalar> direction;
+    for (std::size_t j = 0; j < 6; ++j) direction[j] = image.step[j] * factor;
+    subtract_outer(projector_, 6, image.step, direction);
+    for (int g = 0; g <= used_; g += lanes) {
+      const Group shares = load<Group>(&image.share[index(g)]);
+      for (std::size_t j = 0; j < 6; ++j) {
+        Scalar* const duals = &duals_[j][index(g)];
+        const Group others = load<Group>(duals) - product<Group>(shares, spread<Group>(direction[j]));
+        store(duals, with_lane<Scalar, lanes>(others, used_ - g, direction[j]));
+      }
+    }
+    normals_[index(used_)] = row;
+    ++used_;
   }
 
-  /// Frees a slot.
+  /// Frees a slot, to which the last one in use moves.
   /// @param dual       its row of N*
   /// @param image      of H·dual
   /// @param curvature  dual · H · dual, positive
-  void drop(int slot, const InverseHessian<Scalar>& inverse, const Six<Scalar>& dual, Image& image,
+  void drop(int slot, const InverseHessian<Scalar>& inverse, const Six<Scalar>& dual, const Image& image,
             const Scalar& curvature) noexcept {
-    is_used_[index(slot)] = false;
-    if (--used_ == 0) return clear(inverse);
-    std::copy_n(dual.begin(), 6, image.entries.begin());
-    Six<Scalar> direction = dual;
+    const int last = used_ - 1;
+    if (last == 0) return reset(inverse);
     const Scalar factor = Scalar(1) / curvature;
+    Column gained{};
+    Six<Scalar> direction;
     for (std::size_t j = 0; j < 6; ++j) {
-      image.entries[j] = -image.entries[j];  // P gains what N* loses
-      direction[j] *= factor;
+      gained[j] = -dual[j];  // P gains what N* loses
+      direction[j] = dual[j] * factor;
     }
-    subtract_outer(image, direction);
-    for (auto& column : columns_) column[index(6 + slot)] = Scalar(0);
+    subtract_outer(projector_, 6, gained, direction);
+    subtract_outer(duals_, used_, image.share, direction);
+    for (Column& column : duals_) set(column, slot, column[index(last)]);
+    normals_[index(slot)] = normals_[index(last)];
+    used_ = last;
   }
 
   /// Computes both operators afresh by an orthogonal factor of the active rows: slower, and as good as the
@@ -127,8 +140,7 @@ class ActiveOperators {
   /// are made orthogonal twice (W. Kahan, in B. Parlett, "The Symmetric Eigenvalue Problem", section 6-9).
   void rebuild(const InverseHessian<Scalar>& inverse) noexcept {
     using std::sqrt;
-    clear(inverse);
-    if (used_ == 0) return;
+    if (used_ == 0) return reset(inverse);
     const SixBySix<Scalar> w = inverse.root();
     const auto root_times = [&w](const Six<Scalar>& v) { return multiply(w, v); };
     const auto transposed_root_times = [&w](const Six<Scalar>& v) {
@@ -139,8 +151,7 @@ class ActiveOperators {
       return image;
     };
     SixBySix<Scalar> q{}, r{};
-    std::array<std::size_t, 6> slots{};
-    std::size_t count = 0;
+    const std::size_t count = index(used_);
     const auto orthogonalise = [&q](Six<Scalar>& v, Six<Scalar>& coefficients, std::size_t against) {
       for (int pass = 0; pass < 2; ++pass) {
         for (std::size_t i = 0; i < against; ++i) {
@@ -154,21 +165,19 @@ class ActiveOperators {
     const auto keep = [&q](const Six<Scalar>& v, const Scalar& length, std::size_t at) {
       for (std::size_t j = 0; j < 6; ++j) q[at][j] = length > Scalar(0) ? Scalar(v[j] / length) : Scalar(0);
     };
-    for (int slot = 0; slot < slot_count; ++slot) {
-      if (!is_used(slot)) continue;
-      Six<Scalar> v = root_times(normal(slot));
-      r[count][count] = orthogonalise(v, r[count], count);
-      keep(v, r[count][count], count);
-      slots[count++] = index(slot);
+    for (std::size_t i = 0; i < count; ++i) {
+      Six<Scalar> v = root_times(normals_[i]);
+      r[i][i] = orthogonalise(v, r[i], i);
+      keep(v, r[i][i], i);
     }
     for (std::size_t i = count; i-- > 0;) {
       Six<Scalar> row = transposed_root_times(q[i]);
       for (std::size_t k = i + 1; k < count; ++k) {
-        for (std::size_t j = 0; j < 6; ++j) row[j] -= product(r[k][i], columns_[j][6 + slots[k]]);
+        for (std::size_t j = 0; j < 6; ++j) row[j] -= product(r[k][i], duals_[j][k]);
       }
-      for (std::size_t j = 0; j < 6; ++j) columns_[j][6 + slots[i]] = row[j] / r[i][i];
+      for (std::size_t j = 0; j < 6; ++j) duals_[j][i] = row[j] / r[i][i];
     }
-    for (auto& column : columns_) std::fill_n(column.begin(), 6, Scalar(0));
+    for (Column& column : projector_) column = {};
     for (std::size_t at = count; at < 6; ++at) {
       Six<Scalar> longest{};
       Scalar length(0);
@@ -181,38 +190,40 @@ class ActiveOperators {
       keep(longest, length, at);
       const Six<Scalar> y = transposed_root_times(q[at]);
       for (std::size_t j = 0; j < 6; ++j) {
-        for (std::size_t i = 0; i < 6; ++i) columns_[j][i] += product(y[i], y[j]);
+        for (std::size_t i = 0; i < 6; ++i) projector_[j][i] += product(y[i], y[j]);
       }
     }
   }
 
  private:
-  using Group = Lanes<Scalar, lanes>;
   using SixGroups = std::array<Group, 6>;
-  static constexpr std::size_t rows = 12;  // and four of padding, where 12 is no multiple of the lanes
+  struct alignas(64) Columns : std::array<Column, 6> {};
 
   static std::size_t index(int i) noexcept { return std::size_t(i); }
 
-  void clear(const InverseHessian<Scalar>& inverse) noexcept {
-    for (std::size_t j = 0; j < 6; ++j) {
-      columns_[j].fill(Scalar(0));
-      std::copy_n(inverse.matrix()[j].begin(), 6, columns_[j].begin());
+  /// The first `count` rows of a matrix times a vector.
+  static void multiply_columns(const Columns& columns, int count, const SixGroups& at,
+                               Column& image) noexcept {
+    for (std::size_t g = 0; g < index(count); g += std::size_t(lanes)) {
+      SixGroups column;
+      for (std::size_t j = 0; j < 6; ++j) column[j] = load<Group>(&columns[j][g]);
+      store(&image[g], dot_of_six<Group>(column, at));
     }
   }
-
-  void subtract_outer(const Image& image, const Six<Scalar>& direction) noexcept {
-    for (std::size_t g = 0; g < rows; g += std::size_t(lanes)) {
-      const Group entries = load<Group>(&image.entries[g]);
+  static void subtract_outer(Columns& columns, int count, const Column& left,
+                             const Six<Scalar>& right) noexcept {
+    for (std::size_t g = 0; g < index(count); g += std::size_t(lanes)) {
+      const Group entries = load<Group>(&left[g]);
       for (std::size_t j = 0; j < 6; ++j) {
-        const Group change = product<Group>(entries, spread<Group>(direction[j]));
-        store(&columns_[j][g], Group(load<Group>(&columns_[j][g]) - change));
+        const Group change = product<Group>(entries, spread<Group>(right[j]));
+        store(&columns[j][g], Group(load<Group>(&columns[j][g]) - change));
       }
     }
   }
 
-  alignas(64) std::array<std::array<Scalar, 16>, 6> columns_{};  // of P over N*
+  Columns projector_{};  // P
+  Columns duals_{};      // N*
   SixBySix<Scalar> normals_{};
-  std::array<bool, slot_count> is_used_{};
   int used_ = 0;
 };
 

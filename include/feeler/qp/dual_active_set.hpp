@@ -30,7 +30,8 @@ namespace feeler {
 ///
 /// Rows are met to `tolerance` [m]. Rows that make an angle below about 1e-8 rad with the span of the active
 /// ones count as dependent. The same input gives the same bits, with every number of lanes and,
-/// on x86, with all flags of the compiler. Cost: two products with every row, and one more for each row added; noexcept, no allocation.
+/// on x86, with all flags of the compiler. Cost: two products with every row, and one more for each row
+/// added; noexcept, no allocation.
 /// @tparam lanes  rows computed side by side; by default what the compiler may use
 template <RealScalar ScalarType, int lanes = detail::lanes_of<ScalarType>>
 class DualActiveSet {
@@ -67,9 +68,8 @@ class DualActiveSet {
       return QpStatus::iteration_limit;
     }
     std::copy_n(x_.begin(), 6, solution.step.data());
-    for (int i = 0; i < Operators::slot_count; ++i) {
-      if (operators_.is_used(i)) solution.active.push_back({slots_[index(i)], multipliers_[index(i)]});
-    }
+    for (int i = 0; i < operators_.used(); ++i)
+      solution.active.push_back({slots_[index(i)], multipliers_[index(i)]});
     if (outcome == Outcome::optimal) return QpStatus::optimal;
     return outcome == Outcome::infeasible ? QpStatus::infeasible : QpStatus::iteration_limit;
   }
@@ -114,7 +114,6 @@ class DualActiveSet {
 
   Outcome run(const Problem& problem, const WarmStart& start, Solution& solution) noexcept {
     operators_.reset(inverse_);
-    multipliers_.fill(Scalar(0));
     x_ = inverse_.inverse_times(gradient_);
     for (Scalar& coordinate : x_) coordinate = -coordinate;
     for (const int row : start.rows) assume(problem, row);
@@ -153,7 +152,8 @@ class DualActiveSet {
     using std::abs;
     using std::isfinite;
     Scalar sum(0);
-    for (std::size_t i = 0; i < 6; ++i) sum += abs(x_[i]) + multipliers_[i];
+    for (const Scalar& coordinate : x_) sum += abs(coordinate);
+    for (int i = 0; i < operators_.used(); ++i) sum += multipliers_[index(i)];
     return isfinite(sum);
   }
 
@@ -161,19 +161,18 @@ class DualActiveSet {
   static Scalar rounding_at(const Six& x) noexcept {
     return 8 * std::numeric_limits<Scalar>::epsilon() * largest_of(x);
   }
-  static Scalar largest_of(const Six& v) noexcept {
-    Scalar largest(0);
-    for (const Scalar& entry : v) largest = std::max(largest, magnitude(entry));
-    return largest;
+  template <class V>
+  static Scalar largest_of(const V& v) noexcept {
+    const auto larger = [&v](std::size_t i) { return std::max(magnitude(v[i]), magnitude(v[i + 1])); };
+    return std::max(std::max(larger(0), larger(2)), larger(4));
   }
   static Scalar magnitude(const Scalar& value) noexcept {
     using std::abs;
     return abs(value);
   }
   static Scalar size_of(const Six& a) noexcept {
-    Scalar sum(0);
-    for (const Scalar& entry : a) sum += magnitude(entry);
-    return sum;
+    return ((magnitude(a[0]) + magnitude(a[1])) + (magnitude(a[2]) + magnitude(a[3]))) +
+           (magnitude(a[4]) + magnitude(a[5]));
   }
 
   static Six row_of(const Problem& problem, int k) noexcept {
@@ -190,26 +189,26 @@ class DualActiveSet {
     if (!(slope > dependent_angle_ * dependent_angle_ * whole)) return true;
     const Scalar clear = Scalar(1e-12), far = Scalar(1e6);
     if (!is_careful_ || slope > clear * whole) return false;
-    return violation / slope * largest_of(image_.step()) > far * (largest_of(x_) + violation / size_of(a));
+    return violation / slope * largest_of(image_.step) > far * (largest_of(x_) + violation / size_of(a));
   }
 
+  Scalar slope_along(const Six& a) const noexcept { return detail::dot_of_six<Scalar>(a, image_.step); }
+
   void mark_active() noexcept {
-    for (int i = 0; i < Operators::slot_count; ++i) {
-      if (operators_.is_used(i)) scan_.set_active(slots_[index(i)]);
-    }
+    for (int i = 0; i < operators_.used(); ++i) scan_.set_active(slots_[index(i)]);
   }
 
   /// Makes a row active with equality, whatever the sign of its multiplier; leaves out rows that depend on
   /// others.
   void assume(const Problem& problem, int row) noexcept {
     if (row < 0 || row >= problem.row_count || operators_.used() == Operators::slot_count) return;
-    for (int i = 0; i < Operators::slot_count; ++i) {
-      if (operators_.is_used(i) && slots_[index(i)] == row) return;
+    for (int i = 0; i < operators_.used(); ++i) {
+      if (slots_[index(i)] == row) return;
     }
     const Six a = row_of(problem, row);
     const Scalar whole = detail::dot(a, inverse_.inverse_times(a));
     operators_.apply(a, image_);
-    const Scalar slope = detail::dot(a, image_.step());
+    const Scalar slope = slope_along(a);
     if (!(slope > Scalar(1e-3) * whole)) return;
     const Scalar step = (bounds_[row] - detail::dot(a, x_)) / slope;
     move(step);
@@ -219,16 +218,14 @@ class DualActiveSet {
   /// Drops active rows until no multiplier is negative.
   void drop_negative() noexcept {
     while (operators_.used() > 0) {
-      const auto least = std::min_element(multipliers_.begin(), multipliers_.end());
+      const auto least = std::min_element(multipliers_.begin(), multipliers_.begin() + operators_.used());
       if (!(*least < Scalar(0))) return;
       const int slot = int(least - multipliers_.begin());
       const Six dual = operators_.dual(slot);
       const Scalar curvature = curve(dual);
       const Scalar step = -*least / curvature;
       for (std::size_t j = 0; j < 6; ++j) x_[j] += detail::product(step, dual[j]);
-      for (int i = 0; i < Operators::slot_count; ++i) {
-        multipliers_[index(i)] += detail::product(step, image_.share(i));
-      }
+      move_multipliers(-step);
       release(slot, dual, curvature);
     }
   }
@@ -239,14 +236,10 @@ class DualActiveSet {
     const Scalar rounding = rounding_at(x_);
     const Six bent = inverse_.hessian_times(x_);
     Six residual, lacking{};  // of the gradient, and of the rows
-    Scalar size(0);
+    Scalar size = size_of(bent) + size_of(gradient_);
     bool is_off = false;
-    for (std::size_t j = 0; j < 6; ++j) {
-      residual[j] = bent[j] + gradient_[j];
-      size += magnitude(bent[j]) + magnitude(gradient_[j]);
-    }
-    for (int i = 0; i < Operators::slot_count; ++i) {
-      if (!operators_.is_used(i)) continue;
+    for (std::size_t j = 0; j < 6; ++j) residual[j] = bent[j] + gradient_[j];
+    for (int i = 0; i < operators_.used(); ++i) {
       const Six& a = operators_.normal(i);
       const Scalar& multiplier = multipliers_[index(i)];
       const Scalar row_size = size_of(a);
@@ -262,8 +255,8 @@ class DualActiveSet {
     const Six pulled = inverse_.hessian_times(across);
     for (std::size_t j = 0; j < 6; ++j) residual[j] += pulled[j];
     operators_.apply(residual, image_);
-    for (int j = 0; j < 6; ++j) x_[index(j)] += across[index(j)] - image_.step(j);
-    for (int i = 0; i < Operators::slot_count; ++i) multipliers_[index(i)] += image_.share(i);
+    for (std::size_t j = 0; j < 6; ++j) x_[j] += across[j] - image_.step[j];
+    move_multipliers(Scalar(-1));
     drop_negative();
     return true;
   }
@@ -282,10 +275,10 @@ class DualActiveSet {
     Scalar multiplier(0);
     while (++solution.iterations <= limit) {
       operators_.apply(a, image_);
-      Scalar slope = detail::dot(a, image_.step());
+      Scalar slope = slope_along(a);
       if (slope < Scalar(1e-3) * whole) {
         operators_.project_again(image_);
-        slope = detail::dot(a, image_.step());
+        slope = slope_along(a);
       }
       const Scalar violation = bound - detail::dot(a, x_);
       const bool has_no_step = is_dependent(a, whole, violation, slope);
@@ -293,8 +286,8 @@ class DualActiveSet {
       const Scalar infinity = std::numeric_limits<Scalar>::infinity();
       Scalar dual_step = infinity;
       int leaving = -1;
-      for (int i = 0; i < Operators::slot_count; ++i) {
-        const Scalar& share = image_.share(i);
+      for (int i = 0; i < operators_.used(); ++i) {
+        const Scalar& share = image_.share[index(i)];
         if (share > Scalar(0) && multipliers_[index(i)] < dual_step * share) {
           dual_step = multipliers_[index(i)] / share;
           leaving = i;
@@ -309,7 +302,7 @@ class DualActiveSet {
       multiplier += step;
       if (is_full) {
         clamp_multipliers();
-        p = scan_.add(problem, image_.step(), step, slope, accepted_);
+        p = scan_.add(problem, image_.step, step, slope, accepted_);
         scan_.set_active(row);
         if (p == row) p = scan_.select(problem, accepted_);  // rounding says that it is still violated
         activate(row, a, multiplier, slope);
@@ -318,7 +311,7 @@ class DualActiveSet {
       }
       if (has_no_step) move_multipliers(step);
       clamp_multipliers();
-      const Six z = image_.step();
+      const auto z = image_.step;
       const Six dual = operators_.dual(leaving);
       const Scalar curvature = curve(dual);
       scan_.drop(problem, z, has_no_step ? Scalar(0) : step, dual, curvature);
@@ -338,14 +331,13 @@ class DualActiveSet {
     const auto allowed = [&](const Six& row) { return tolerance + detail::product(rounding, size_of(row)); };
     Six rest = a;
     Scalar slack = allowed(a);
-    for (int i = 0; i < Operators::slot_count; ++i) {
-      if (!operators_.is_used(i)) continue;
+    for (int i = 0; i < operators_.used(); ++i) {
       const Six& normal = operators_.normal(i);
-      slack -= detail::product(image_.share(i), allowed(normal));
-      violation -=
-          detail::product(image_.share(i), bounds_[slots_[index(i)]] -
-                                               detail::dot(normal, x_));  // x may have drifted off them
-      for (std::size_t j = 0; j < 6; ++j) rest[j] -= detail::product(image_.share(i), normal[j]);
+      const Scalar& share = image_.share[index(i)];
+      slack -= detail::product(share, allowed(normal));
+      const Scalar drift = bounds_[slots_[index(i)]] - detail::dot(normal, x_);  // of x off this row
+      violation -= detail::product(share, drift);
+      for (std::size_t j = 0; j < 6; ++j) rest[j] -= detail::product(share, normal[j]);
     }
     const Scalar allowed_rest =
         std::max(Scalar(1e-12), Scalar(64 * std::numeric_limits<Scalar>::epsilon())) * size_of(a);
@@ -354,23 +346,29 @@ class DualActiveSet {
         is_careful_ ? violation > size_of(rest) * largest_of(x_) : is_sum && violation > slack;
     if (!is_certain) return Entry::in_doubt;
     solution.conflict.push_back(p);
-    for (int i = 0; i < Operators::slot_count; ++i) {
-      if (image_.share(i) < -Scalar(1e-9)) solution.conflict.push_back(slots_[index(i)]);
+    for (int i = 0; i < operators_.used(); ++i) {
+      if (image_.share[index(i)] < -Scalar(1e-9)) solution.conflict.push_back(slots_[index(i)]);
     }
     return Entry::infeasible;
   }
 
   /// A step along P·a, and what it does to the multipliers.
   void move(const Scalar& step) noexcept {
-    for (int j = 0; j < 6; ++j) x_[index(j)] += detail::product(step, image_.step(j));
+    for (std::size_t j = 0; j < 6; ++j) x_[j] += detail::product(step, image_.step[j]);
     move_multipliers(step);
   }
   void move_multipliers(const Scalar& step) noexcept {
-    for (int i = 0; i < Operators::slot_count; ++i)
-      multipliers_[index(i)] -= detail::product(step, image_.share(i));
+    using Group = detail::Lanes<Scalar, lanes>;
+    const Group by = detail::spread<Group>(step);
+    for (std::size_t g = 0; g < index(operators_.used()); g += std::size_t(lanes)) {
+      const Group change = detail::product<Group>(by, detail::load<Group>(&image_.share[g]));
+      detail::store(&multipliers_[g], Group(detail::load<Group>(&multipliers_[g]) - change));
+    }
   }
   void clamp_multipliers() noexcept {
-    for (Scalar& multiplier : multipliers_) multiplier = multiplier > Scalar(0) ? multiplier : Scalar(0);
+    using Group = detail::Lanes<Scalar, lanes>;
+    for (std::size_t g = 0; g < index(operators_.used()); g += std::size_t(lanes))
+      detail::store(&multipliers_[g], detail::greater<Group>(detail::load<Group>(&multipliers_[g]), Group{}));
   }
 
   /// Fills the image with that of H·dual and returns dual·H·dual.
@@ -381,16 +379,18 @@ class DualActiveSet {
   }
 
   void activate(int row, const Six& a, const Scalar& multiplier, const Scalar& slope) noexcept {
-    const int slot = operators_.free_slot();
+    const int slot = operators_.used();
     slots_[index(slot)] = row;
-    multipliers_[index(slot)] = multiplier;
-    operators_.add(slot, a, image_, slope);
+    Operators::set(multipliers_, slot, multiplier);
+    operators_.add(a, image_, slope);
     if (is_careful_) operators_.rebuild(inverse_);
   }
 
   void release(int slot, const Six& dual, const Scalar& curvature) noexcept {
-    multipliers_[index(slot)] = Scalar(0);
     operators_.drop(slot, inverse_, dual, image_, curvature);
+    const std::size_t last = index(operators_.used());
+    slots_[index(slot)] = slots_[last];
+    Operators::set(multipliers_, slot, multipliers_[last]);
     if (is_careful_) operators_.rebuild(inverse_);
   }
 
@@ -403,7 +403,7 @@ class DualActiveSet {
   alignas(64) std::array<Scalar, std::size_t(Problem::row_capacity)> relaxed_bounds_{};
   Six gradient_{};
   Six x_{};
-  Six multipliers_{};  // a number a slot; 0 where it is free
+  alignas(64) typename Operators::Column multipliers_{};  // a number a slot in use
   std::array<int, 6> slots_{};
   Scalar dependent_angle_ = Scalar(0);  // of a row with the span of others, in the metric of H⁻¹ [rad]
   bool is_careful_ = false;

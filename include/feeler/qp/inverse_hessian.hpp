@@ -20,7 +20,7 @@ class InverseHessian {
     is_diagonal_ = true;
     for (int j = 0; j < 6; ++j) {
       diagonal_[index(j)] = h(j, j);
-      for (int i = j + 1; i < 6; ++i) is_diagonal_ = is_diagonal_ && h(i, j) == Scalar(0);
+      for (int i = j + 1; i < 6; ++i) is_diagonal_ = is_diagonal_ & (h(i, j) == Scalar(0));
     }
     if (is_diagonal_) return invert_diagonal();
     for (int j = 0; j < 6; ++j) {
@@ -30,6 +30,8 @@ class InverseHessian {
   }
 
   bool is_diagonal() const noexcept { return is_diagonal_; }
+  /// H⁻¹ where it is diagonal, and where it is not.
+  const Six<Scalar>& diagonal() const noexcept { return d_inverse_; }
   const SixBySix<Scalar>& matrix() const noexcept { return inverse_; }
   /// H⁻¹·v
   Six<Scalar> inverse_times(const Six<Scalar>& v) const noexcept {
@@ -58,12 +60,12 @@ class InverseHessian {
   }
 
   bool invert_diagonal() noexcept {
-    inverse_ = {};
+    bool is_definite = true;
     for (std::size_t j = 0; j < 6; ++j) {
-      if (!is_pivot(diagonal_[j])) return false;
-      inverse_[j][j] = d_inverse_[j] = Scalar(1) / diagonal_[j];
+      is_definite = is_definite & is_pivot(diagonal_[j]);
+      d_inverse_[j] = Scalar(1) / diagonal_[j];
     }
-    return true;
+    return is_definite;
   }
 
   bool factorise() noexcept {

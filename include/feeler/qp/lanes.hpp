@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
@@ -78,6 +79,23 @@ inline Group spread(const Scalar& value) noexcept {
     return value;
   } else {
     return value - Group{};
+  }
+}
+
+/// The group with another number in one lane; unchanged where there is no such lane.
+///
+/// A number that is written alone and read in a group soon after makes processors wait.
+template <class Scalar, int lanes>
+inline Lanes<Scalar, lanes> with_lane(const Lanes<Scalar, lanes>& group, int lane,
+                                      const Scalar& value) noexcept {
+  if constexpr (lanes == 1) {
+    return lane == 0 ? value : group;
+  } else {
+    std::array<LaneBits<Scalar>, std::size_t(lanes)> numbers;
+    for (std::size_t i = 0; i < numbers.size(); ++i) numbers[i] = LaneBits<Scalar>(i);
+    using Numbers = Lanes<LaneBits<Scalar>, lanes>;
+    const auto is_it = std::bit_cast<Numbers>(numbers) == LaneBits<Scalar>(lane) + Numbers{};
+    return is_it ? spread<Lanes<Scalar, lanes>>(value) : group;
   }
 }
 

@@ -34,14 +34,14 @@ class RowScan {
   /// @param bounds  of the rows, here and below
   int start(const Problem& problem, const Scalar* bounds, const InverseHessian<Scalar>& inverse,
             const Six<Scalar>& x, Scalar tolerance) noexcept {
-    return inverse.is_diagonal() ? start(problem, bounds, DiagonalForm(inverse.matrix()), x, tolerance)
+    return inverse.is_diagonal() ? start(problem, bounds, DiagonalForm(inverse.diagonal()), x, tolerance)
                                  : start(problem, bounds, FullForm(inverse.matrix()), x, tolerance);
   }
   /// Computes weights where some rows are active.
   void weigh(const Problem& problem, const InverseHessian<Scalar>& inverse,
              const SixBySix<Scalar>& projector) noexcept {
     if (inverse.is_diagonal()) {
-      weigh(problem, DiagonalForm(inverse.matrix()), FullForm(projector));
+      weigh(problem, DiagonalForm(inverse.diagonal()), FullForm(projector));
     } else {
       weigh(problem, FullForm(inverse.matrix()), FullForm(projector));
     }
@@ -83,8 +83,8 @@ class RowScan {
   }
 
   /// Follows a step of `length` along z and the change of P by −z·zᵀ/slope, then selects as above.
-  int add(const Problem& problem, const Six<Scalar>& z, Scalar length, Scalar slope,
-          Scalar tolerance) noexcept {
+  template <class Step>
+  int add(const Problem& problem, const Step& z, Scalar length, Scalar slope, Scalar tolerance) noexcept {
     const SixGroups direction = spread_all(z);
     const Group step = spread<Group>(length), factor = spread<Group>(Scalar(1) / slope);
     Best best;
@@ -100,7 +100,8 @@ class RowScan {
   }
 
   /// Follows a step of `length` along z and the change of P by +u·uᵀ/curvature.
-  void drop(const Problem& problem, const Six<Scalar>& z, Scalar length, const Six<Scalar>& u,
+  template <class Step>
+  void drop(const Problem& problem, const Step& z, Scalar length, const Six<Scalar>& u,
             Scalar curvature) noexcept {
     const SixGroups direction = spread_all(z), freed = spread_all(u);
     const Group step = spread<Group>(length), factor = spread<Group>(Scalar(1) / curvature);
@@ -123,9 +124,7 @@ class RowScan {
   /// aᵀQa with Q diagonal.
   class DiagonalForm {
    public:
-    explicit DiagonalForm(const SixBySix<Scalar>& q) noexcept {
-      for (std::size_t j = 0; j < 6; ++j) entries_[j] = spread<Group>(q[j][j]);
-    }
+    explicit DiagonalForm(const Six<Scalar>& q) noexcept : entries_(spread_all(q)) {}
     Group operator()(const SixGroups& a) const noexcept {
       SixGroups image;
       for (std::size_t j = 0; j < 6; ++j) image[j] = product(entries_[j], a[j]);
@@ -163,7 +162,8 @@ class RowScan {
     return std::numeric_limits<Scalar>::min() / std::numeric_limits<Scalar>::epsilon();
   }
 
-  static SixGroups spread_all(const Six<Scalar>& v) noexcept {
+  template <class V>
+  static SixGroups spread_all(const V& v) noexcept {
     SixGroups groups;
     for (std::size_t j = 0; j < 6; ++j) groups[j] = spread<Group>(v[j]);
     return groups;
