@@ -5,6 +5,7 @@
 #include <functional>
 #include <random>
 
+#include "feeler/spatial/twist.hpp"
 #include "support/finite_differences.hpp"
 #include "support/random_geometry.hpp"
 
@@ -73,7 +74,7 @@ Contact edge_edge(std::mt19937& bits, double gap) {
 }
 
 void check_gradient(const Contact& contact, Real tolerance) {
-  BOOST_TEST(std::abs(contact.separation(Wide6::Zero()) - Real(contact.row.gap)) < 1e-15L);
+  BOOST_TEST(std::abs(contact.separation(Wide6::Zero()) - Real(contact.row.gap)) < 2e-15L);
   const Wide6 slopes = gradient_by_differences(contact.separation);
   const auto gradient = contact.row.gradient();
   for (int i = 0; i < 6; ++i) BOOST_TEST(std::abs(slopes[i] - Real(gradient[i])) < tolerance);
@@ -123,6 +124,19 @@ BOOST_AUTO_TEST_CASE(
     const Real sine = Real(apart.row.tool_edge.cross(apart.row.object_edge).norm());
     BOOST_TEST(curvature_error(apart) < 1e-6L + 2 * std::abs(Real(gap)) / (sine * sine));
   }
+}
+
+BOOST_AUTO_TEST_CASE(a_carried_row_is_the_row_where_a_motion_ends) {
+  constexpr unsigned seed = 5;
+  BOOST_TEST_MESSAGE("seed " << seed);
+  std::mt19937 bits(seed);
+  for (int i = 0; i < 300; ++i)
+    for (const Contact& contact : {vertex_face(bits), face_vertex(bits), edge_edge(bits, 1e-3 * unit(bits))}) {
+      const feeler::Twist<double> motion{0.1 * random_vector(bits), 0.1 * random_vector(bits)};
+      const Wide6 step = motion.vector().cast<Real>();
+      const ContactRow<double> carried = contact.row.carried(motion);
+      check_gradient({carried, [&](const Wide6& d) { return contact.separation(composed(step, d)); }}, 1e-8L);
+    }
 }
 
 BOOST_AUTO_TEST_CASE(curvature_is_symmetric) {

@@ -104,6 +104,23 @@ BOOST_AUTO_TEST_CASE(gradient_and_curvature_of_points_and_lines_are_derivatives_
   }
 }
 
+BOOST_AUTO_TEST_CASE(a_carried_row_is_the_row_where_a_motion_ends) {
+  constexpr unsigned seed = 3;
+  BOOST_TEST_MESSAGE("seed " << seed);
+  std::mt19937 bits(seed);
+  for (int kind = 0; kind < 4; ++kind)
+    for (int i = 0; i < 100; ++i) {
+      const Pair pair = random_pair(bits, (kind & 1) != 0, (kind & 2) != 0);
+      const feeler::Twist<double> motion{0.01 * random_vector(bits), 0.01 * random_vector(bits)};
+      const Wide6 step = motion.vector().cast<Real>();
+      const SweptContactRow<double> carried = pair.row().carried(motion);
+      const auto separation = [&](const Wide6& d) { return pair.separation(composed(step, d)); };
+      BOOST_TEST(std::abs(separation(Wide6::Zero()) - Real(carried.gap)) < 1e-14L);
+      BOOST_TEST(std::abs(Real(carried.gap - carried.core_distance) + pair.radius) < 1e-14L);
+      BOOST_TEST(largest_difference(gradient_by_differences(separation), carried.gradient()) < 1e-6L);
+    }
+}
+
 BOOST_AUTO_TEST_CASE(a_face_is_not_bent_by_the_radius) {
   SweptContactRow<double> row;
   row.normal = Vector(1, 2, 3).normalized();

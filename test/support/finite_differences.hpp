@@ -19,6 +19,17 @@ inline WidePoint turned(const WidePoint& w, const WidePoint& v) {
   return std::cos(angle) * v + std::sin(angle) * axis.cross(v) + (1 - std::cos(angle)) * axis.dot(v) * axis;
 }
 
+/// The step that has the effect of one step and then another.
+inline WideStep composed(const WideStep& first, const WideStep& second) {
+  const auto rotation = [](const WidePoint& w) {
+    return Eigen::Quaternion<WideNumber>(Eigen::AngleAxis<WideNumber>(w.norm(), w.norm() > 0 ? WidePoint(w.normalized()) : WidePoint::UnitX()));
+  };
+  const Eigen::AngleAxis<WideNumber> both(rotation(second.tail<3>()) * rotation(first.tail<3>()));
+  WideStep result;
+  result << first.head<3>() + second.head<3>(), both.angle() * both.axis();
+  return result;
+}
+
 /// Where derivatives are of the order of 1, differences err by h² and by rounding / h², both about 1e-9.
 constexpr WideNumber difference_step = 1e-5L;
 

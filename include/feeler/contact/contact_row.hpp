@@ -5,6 +5,7 @@
 
 #include "feeler/core/scalar.hpp"
 #include "feeler/spatial/rotation.hpp"
+#include "feeler/spatial/twist.hpp"
 
 namespace feeler {
 
@@ -38,6 +39,39 @@ struct ContactRow {
   bool outlasts(const Vector6<Scalar>& step) const noexcept {
     const Vector3<Scalar> motion = step.template head<3>() + Vector3<Scalar>(step.template tail<3>()).cross(arm);
     return (motion - normal.dot(motion) * normal).squaredNorm() <= room * room;
+  }
+
+  /// The row where a motion ends, exactly, if the same features still meet there.
+  ContactRow carried(const Twist<Scalar>& motion) const noexcept {
+    const Matrix3<Scalar> turn = exp_rotation(motion.angular).toRotationMatrix();
+    ContactRow row = *this;
+    switch (kind) {
+      case FeaturePair::vertex_face:
+        row.arm = turn * arm;
+        row.gap = gap + normal.dot(motion.linear + row.arm - arm);
+        break;
+      case FeaturePair::face_vertex:
+        row.normal = turn * normal;
+        row.arm = arm - motion.linear;
+        row.gap = gap - row.normal.dot(row.arm) + normal.dot(arm);
+        break;
+      case FeaturePair::edge_edge: {
+        row.tool_edge = turn * tool_edge;
+        const Vector3<Scalar> between = gap * normal + motion.linear + turn * arm - arm;
+        const Vector3<Scalar> across = row.tool_edge.cross(object_edge).normalized();
+        row.normal = across.dot(normal) < Scalar(0) ? Vector3<Scalar>(-across) : across;
+        row.gap = row.normal.dot(between);
+        row.arm = turn * arm + nearest_on_line(between, row.tool_edge, object_edge) * row.tool_edge;
+        break;
+      }
+    }
+    return row;
+  }
+
+  /// Where on the line b + s·v it is nearest to the line t·u; u and v are unit or, for a point, u is zero.
+  static Scalar nearest_on_line(const Vector3<Scalar>& b, const Vector3<Scalar>& v, const Vector3<Scalar>& u) noexcept {
+    const Scalar cosine = u.dot(v);
+    return (cosine * b.dot(u) - b.dot(v)) / (Scalar(1) - cosine * cosine);
   }
 
   Vector6<Scalar> gradient() const noexcept {

@@ -20,6 +20,28 @@ struct SweptContactRow : ContactRow<ScalarType> {
 
   Scalar core_distance = Scalar(0);  ///< between two points, a point and a line, or two lines that are not parallel [m]
 
+  /// The row where a motion ends, exactly, if the same features still meet there.
+  SweptContactRow carried(const Twist<Scalar>& motion) const noexcept {
+    SweptContactRow row = *this;
+    if (!(core_distance > Scalar(0))) {
+      static_cast<ContactRow<Scalar>&>(row) = ContactRow<Scalar>::carried(motion);
+      return row;
+    }
+    const Matrix3<Scalar> turn = exp_rotation(motion.angular).toRotationMatrix();
+    row.arm = turn * this->arm;
+    row.tool_edge = turn * this->tool_edge;
+    Vector3<Scalar> between = core_distance * this->normal + motion.linear + row.arm - this->arm;
+    const Vector3<Scalar>&u = row.object_edge, &v = row.tool_edge;
+    const Vector3<Scalar> slide = row.nearest_on_line(between, v, u) * v;
+    row.arm += slide;
+    between += slide;
+    between -= u.dot(between) * u;
+    row.core_distance = between.norm();
+    if (row.core_distance > Scalar(0)) row.normal = between / row.core_distance;
+    row.gap = this->gap + row.core_distance - core_distance;
+    return row;
+  }
+
   /// C: second derivative of the separation by the step.
   ///
   /// The distance is the least of |x + a v − y − b u| over a and b, x − y = d n, with x moved by dp + w×x + ½ w×(w×x). With J = [I, −[x]×],

@@ -22,6 +22,7 @@ struct WorkingPair {
   bool is_ghost = false;    ///< at the certified pose a neighbour was nearer, and its plane means nothing
   bool is_tight = false;    ///< there was no room for the margin at its last step
   bool keeps_ghost = false; ///< it blocked although its row looked like a ghost: give it a row all the same
+  bool keeps_contact = false; ///< it blocked a motion from where the two touched: its row there holds for the whole of the next
 
   /// Whether the separation is certainly more than a distance [m].
   bool is_beyond(Scalar distance) const noexcept { return slack - moved > distance; }
@@ -71,11 +72,11 @@ class WorkingSet {
 
   /// Counts a tick, and drops what has been idle for `longest` ticks or lies more than `reach` away [m]; what lies closer than `touch`
   /// is not idle.
-  void age(int longest, Scalar touch, Scalar reach, bool keep_ghosts) noexcept {
+  void age(int longest, Scalar touch, Scalar reach, bool goes_on) noexcept {
     for (int i = pairs_.size() - 1; i >= 0; --i) {
       Pair& pair = pairs_[i];
       pair.idle_ticks = pair.slack < touch ? 1 : pair.idle_ticks + 1;
-      if (!keep_ghosts) pair.keeps_ghost = false;
+      if (!goes_on) pair.keeps_ghost = pair.keeps_contact = false;
       if (pair.idle_ticks > longest || (pair.idle_ticks > 1 && pair.slack > reach)) pairs_.swap_remove(i);
     }
   }

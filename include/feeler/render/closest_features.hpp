@@ -11,6 +11,7 @@
 #include "feeler/core/status.hpp"
 #include "feeler/object/triangle_normal.hpp"
 #include "feeler/render/contact_method.hpp"
+#include "feeler/render/kept_contacts.hpp"
 #include "feeler/render/motion_certificate.hpp"
 #include "feeler/render/rendered_scene.hpp"
 #include "feeler/render/step_problem.hpp"
@@ -102,10 +103,11 @@ class ClosestFeaturesFollower {
   /// A fit all around a tool may take more work to look at once than a tick has; with less it would never move.
   int work_budget(const Scene& scene) const noexcept { return scene.settings().work_budget << patience_; }
 
-  /// Doubles the budget after a tick in which it ran out and the tool did not move, and halves it where half would do.
+  /// Doubles the budget after a tick in which it ran out before the tool moved or a second linearisation, and halves it where half would do.
   void adapt_budget(const Scene& scene, const Tick<MeshScalar>& tick, bool has_moved) noexcept {
     constexpr int most_patience = 4;
-    if (tick.work >= work_budget(scene) && !has_moved) patience_ = std::min(patience_ + 1, most_patience);
+    const bool is_too_little = !has_moved || tick.iterations < 2;
+    if (tick.work >= work_budget(scene) && is_too_little) patience_ = std::min(patience_ + 1, most_patience);
     if (tick.work < work_budget(scene) / 3) patience_ = std::max(patience_ - 1, 0);
   }
 
@@ -125,6 +127,22 @@ class ClosestFeaturesFollower {
   void reset_limits(const Scene& scene) noexcept {
     trust_ = scene.trust_radius();
     flight_ = std::numeric_limits<Scalar>::infinity();
+    unhindered_ = 0;
+  }
+
+  /// Longest motion to propose from the rows of the last linearisation [m].
+  Scalar& limit() noexcept { return problem_.row_count() > 0 || leaves_out_pairs_ ? trust_ : flight_; }
+
+  /// After a motion that nothing stopped. Long slides pass wide faces: after some such motions the trust region outgrows its radius.
+  void widen(const Scene& scene) noexcept {
+    const Scalar radius = scene.trust_radius();
+    const bool is_long_slide = trust_ >= radius && ++unhindered_ > 3;
+    trust_ = std::min(2 * trust_, is_long_slide ? 8 * radius : std::max(trust_, radius));
+    flight_ *= 2;
+  }
+  void narrow(Scalar length) noexcept {
+    trust_ = length;
+    unhindered_ = 0;
   }
 
   /// True when it arrived at a local minimum.
@@ -139,14 +157,14 @@ class ClosestFeaturesFollower {
       const Scalar length = scene.length_of(proposal.motion, pose_);
       if (length <= resting) return proposal.is_settled && !proposal.is_capped;
       if (!descends(scene, turns.moved(pose_, proposal.motion), proposal.restoration)) {
-        trust_ = std::min(trust_, length) / 4;
+        narrow(std::min(trust_, length) / 4);
         if (trust_ < resting) break;
         continue;
       }
       const auto result = certify(scene, proposal.motion, tick);
       if (result.is_exhausted) {
         // What was found to block is real, and saves work next time.
-        if (!admit(scene, result)) (problem_.row_count() > 0 ? trust_ : flight_) = length / 8;
+        if (!admit(scene, result)) limit() = length / 8;
       } else {
         const bool is_done = result.blockers.empty() && proposal.is_settled && !proposal.is_capped;
         pose_ = is_done && proposal.is_free ? target_ : turns.moved(pose_, proposal.motion * result.time);
@@ -156,15 +174,16 @@ class ClosestFeaturesFollower {
         }
         if (is_done) return true;
         if (result.blockers.empty()) {
-          trust_ = std::min(scene.trust_radius(), 2 * trust_);
-          flight_ *= 2;
-        } else if (!admit(scene, result)) {
-          trust_ = length * std::max(result.time, Scalar(1) / 4);
+          widen(scene);
+        } else if (admit(scene, result)) {
+          narrow(std::min(trust_, scene.trust_radius()));
+        } else {
+          narrow(length * std::max(result.time, Scalar(1) / 4));
         }
       }
       if (tick.work >= work_budget(scene) || trust_ < resting) break;
     }
-    trust_ = std::max(trust_, Scalar(1e-7));
+    trust_ = std::clamp(trust_, Scalar(1e-7), scene.trust_radius());
     flight_ = std::max(flight_, Scalar(1e-7));
     return false;
   }
@@ -187,20 +206,19 @@ class ClosestFeaturesFollower {
     Scalar previous(0);
     for (int round = 0; round < maximum_rounds; ++round) {
       linearise(scene, pose, round == 0, !rests_on_assumption, tick);
-      const Twist<Scalar> e = turns.motion_between(target_, pose);
-      const Vector6<Scalar> step = proposal.is_capped ? problem_.restore(scene.metric(), scene.margin())
-                                                      : problem_.solve(scene.metric(), e, scene.margin());
+      solve(scene, pose, proposal.is_capped);
       if (round == 0) proposal.restoration = problem_.cost_of_restoration();
+      if (round > 0) keep_contacts(scene, pose, proposal.is_capped);
       note_tight_pairs();
+      const Vector6<Scalar>& step = problem_.solution().step;
       pose = turns.moved(pose, Twist<Scalar>::from_vector(step));
       proposal.motion = turns.motion_between(pose_, pose);
       const Scalar last = scene.length_of(Twist<Scalar>::from_vector(step), pose);
       if (!proposal.is_capped) proposal.is_free = problem_.is_free();
       const Scalar length = scene.length_of(proposal.motion, pose_);
-      const Scalar limit = problem_.row_count() > 0 ? trust_ : flight_;
-      if (length > limit && !proposal.is_capped) {
+      if (length > limit() && !proposal.is_capped) {
         proposal.is_capped = true;
-        proposal.motion = proposal.motion * (limit / length);
+        proposal.motion = proposal.motion * (limit() / length);
         pose = turns.moved(pose_, proposal.motion);
         if (proposal.is_free) return proposal;
         continue;
@@ -210,10 +228,35 @@ class ClosestFeaturesFollower {
       const Scalar tolerance = Scalar(scene.settings().step_tolerance);
       const bool is_short = last < tolerance && (last < previous / 10 || last < tolerance / 50);
       previous = last;
-      proposal.is_settled = (is_short && !rests_on_assumption && problem_.keeps_features()) || proposal.is_free;
-      if (proposal.is_settled || proposal.is_capped) return proposal;
+      const bool rests_on_kept = problem_.rests_on_kept();
+      proposal.is_settled =
+          (is_short && !rests_on_assumption && !rests_on_kept && problem_.keeps_features()) || proposal.is_free;
+      if (proposal.is_settled || proposal.is_capped || (is_short && rests_on_kept)) return proposal;
     }
     return proposal;
+  }
+
+  void solve(const Scene& scene, const Pose<Scalar>& pose, bool is_capped) noexcept {
+    if (is_capped) {
+      problem_.restore(scene.metric(), scene.margin());
+    } else {
+      problem_.solve(scene.metric(), scene.idle_turns().motion_between(target_, pose), scene.margin());
+    }
+  }
+
+  /// Whether a contact is close enough to be broken by any motion; where there is no clearance at all, rounding decides which is.
+  static bool touches(const Scene& scene, Scalar gap) noexcept { return gap > Scalar(1e-9) && gap < 4 * scene.margin(); }
+
+  /// Solves again with the contacts of the certified pose that the motion would break.
+  void keep_contacts(const Scene& scene, const Pose<Scalar>& pose, bool is_capped) noexcept {
+    const auto& turns = scene.idle_turns();
+    const Twist<Scalar> so_far = turns.motion_between(pose_, pose);
+    kept_.release();
+    for (int round = 0; round < 2; ++round) {
+      const Pose<Scalar> end = turns.moved(pose, Twist<Scalar>::from_vector(problem_.solution().step));
+      if (!kept_.keep_broken(so_far, turns.motion_between(pose_, end), scene.margin(), problem_)) break;
+      solve(scene, pose, is_capped);
+    }
   }
 
   /// Rows of the working set at a pose; at the certified pose also the planes that the certificate starts from.
@@ -223,11 +266,14 @@ class ClosestFeaturesFollower {
     const Matrix3<Scalar> axes = pose.rotation.toRotationMatrix();
     const Scalar band = scene.trust_radius() / 4;
     const Scalar far = reach_of_step(scene);
+    leaves_out_pairs_ = false;
+    if (is_certified) kept_.clear();
     PatchRows<Scalar, Row> rows;
     for (int i = 0; i < working_set_.size(); ++i) {
       Pair& pair = working_set_[i];
       if (pair.is_beyond(far)) {
         pair.has_rows = false;
+        leaves_out_pairs_ = true;
         continue;
       }
       const Matrix3<Scalar> corners = scene.in_tool(pair.corners_world, pose, axes);
@@ -246,6 +292,7 @@ class ClosestFeaturesFollower {
         row.piece = pair.piece;
         row.triangle = pair.triangle;
         problem_.add(row, pair.slack, pair.is_tight);
+        if (is_certified && pair.keeps_contact && touches(scene, row.gap)) kept_.add(row, pair.slack, pair.is_tight);
       }
     }
     tick.rows = problem_.row_count();
@@ -296,7 +343,7 @@ class ClosestFeaturesFollower {
     return certificate_.certify(scene, pose_, motion, tick.work, limit, working_set_, reach_of_step(scene));
   }
 
-  /// Takes what blocked into the working set; false when all of it was there already with rows of its own.
+  /// Takes what blocked into the working set; false when all of it was there already with rows of its own, kept where it touched.
   bool admit(const Scene& scene, const SweepResult<Scalar>& result) noexcept {
     bool is_new = false;
     for (const auto& blocker : result.blockers) {
@@ -312,6 +359,10 @@ class ClosestFeaturesFollower {
         pair.keeps_ghost = true;
         is_new = true;
       }
+      if (!pair.keeps_contact && !pair.is_tight && touches(scene, pair.slack)) {
+        pair.keeps_contact = true;
+        is_new = true;
+      }
     }
     return is_new;
   }
@@ -320,11 +371,14 @@ class ClosestFeaturesFollower {
   Pose<Scalar> target_;   // the haptic pose
   bool goes_on_ = false;  // the last tick left motion for this one
   int patience_ = 0;      // doublings of the work budget
+  int unhindered_ = 0;    // motions of the trust radius and more in a row that nothing stopped
+  bool leaves_out_pairs_ = false;  // the last linearisation had pairs beyond its reach
   Scalar trust_ = 0;      // longest motion proposed near the object
   Scalar flight_ = 0;     // the same away from it, where only the work of the certificate limits it
   Pairs working_set_;
   MotionCertificate<ToolType> certificate_;
   StepProblem<Solver, row_capacity, Row> problem_;
+  KeptContacts<Row, row_capacity> kept_;
 };
 
 /// The default contact method: constraint planes between the closest features of the tool and the triangles in its way.

@@ -20,7 +20,7 @@ struct Fold {
 
   Pose<Scalar> from;        ///< the tool frame before
   Pose<Scalar> to;          ///< and where it came to rest
-  Scalar jump = Scalar(0);  ///< how much farther the tool went than the device, in the metric of the settings [m]
+  Scalar jump = Scalar(0);  ///< how much farther the tool went from tick to tick than the device, in the metric of the settings [m]
   int ticks = 0;            ///< that it took
 };
 
@@ -54,10 +54,8 @@ class FoldDetector {
     if (has_ended_) begin();
     device_way_ += length(haptic_, haptic_pose);
     haptic_ = haptic_pose;
-    for (const Pose<Scalar>& pose : tick.path) {
-      tool_way_ += length(fold_.to, pose);
-      fold_.to = pose;
-    }
+    tool_way_ += length(fold_.to, tick.graphic_pose);
+    fold_.to = tick.graphic_pose;
     ++fold_.ticks;
     has_ended_ = tick.converged();
     fold_.jump = tool_way_ - device_way_;

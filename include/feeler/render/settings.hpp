@@ -30,7 +30,8 @@ struct Settings {
   /// iterations; below 1e-8 convergence is lost, above 1e-5 it can be felt. Tighter fits than twice the margin are still rendered.
   Scalar margin = Scalar(1e-6);
 
-  /// Longest motion of any tool point between two linearisations in contact [m]. More follows a fast hand with fewer iterations, and
+  /// Longest motion of any tool point between two linearisations in contact [m]; up to eight times as long where nothing has stopped a few
+  /// such motions. More follows a fast hand with fewer iterations, and
   /// makes one bad linearisation cost more.
   Scalar trust_radius = Scalar(4e-4);
 

@@ -28,13 +28,22 @@ class StepProblem {
   static constexpr int row_capacity = rows;
   static_assert(row_capacity <= QpProblem<Scalar>::row_capacity);
 
-  void clear() noexcept { rows_.clear(); }
+  void clear() noexcept {
+    rows_.clear();
+    kept_ = 0;
+  }
   /// @param certified_gap  separation of the row's pair at the last certified pose [m]
   /// @param is_tight       it was among those that could not have the margin: relax it with the first that cannot
   bool add(const Row& row, Scalar certified_gap, bool is_tight) noexcept {
     if (!rows_.push_back(row)) return false;
     certified_gaps_[index(rows_.size() - 1)] = certified_gap;
     is_tight_[index(rows_.size() - 1)] = is_tight;
+    return true;
+  }
+  /// Appends a row that held where the motion began, to hold where it ends; no other row may follow.
+  bool keep(const Row& row, Scalar certified_gap, bool is_tight) noexcept {
+    if (!add(row, certified_gap, is_tight)) return false;
+    ++kept_;
     return true;
   }
   /// Whether a row of the last solution was asked for less than the margin.
@@ -51,6 +60,11 @@ class StepProblem {
   bool rests_on_assumption() const noexcept {
     return std::any_of(solution_.active.begin(), solution_.active.end(),
                        [this](const auto& active) { return rows_[active.row].is_assumed; });
+  }
+  /// Whether a kept row stopped the last step.
+  bool rests_on_kept() const noexcept {
+    return std::any_of(solution_.active.begin(), solution_.active.end(),
+                       [this](const auto& active) { return active.row >= rows_.size() - kept_; });
   }
   /// Whether the contacts that stopped the last step are still between the same features after it.
   bool keeps_features() const noexcept {
@@ -180,6 +194,7 @@ class StepProblem {
   QpSolution<Scalar> projection_;
   bool is_free_ = true;
   FixedVector<Row, row_capacity> rows_;
+  int kept_ = 0;  // of them, at the end
   std::array<Scalar, std::size_t(row_capacity)> certified_gaps_;
   std::array<bool, std::size_t(row_capacity)> is_tight_;
   std::array<bool, std::size_t(row_capacity)> is_relaxed_;

@@ -1,0 +1,59 @@
+// The contacts at the start of a motion that must hold until its end.
+#pragma once
+
+#include <algorithm>
+
+#include "feeler/core/fixed_vector.hpp"
+#include "feeler/core/scalar.hpp"
+#include "feeler/spatial/twist.hpp"
+
+namespace feeler {
+
+/// Rows of pairs that blocked a motion from where they touched.
+///
+/// A motion is linearised again where its first step ends, and there other features are closest: a point that has slid over a ridge knows
+/// the far side alone. The chord to a point on that side runs through the ridge, and is blocked at once. From then on the row of the start is
+/// carried along, and kept wherever a motion would break it: the tool leaves the ridge along the tangent, and comes down in the next iteration.
+///
+/// Rows that have not blocked are not kept: at a seam, or where the triangle beside is not known yet, they would hold what is free.
+template <class Row, int capacity>
+class KeptContacts {
+ public:
+  using Scalar = typename Row::Scalar;
+
+  void clear() noexcept { contacts_.clear(); }
+  /// @param row            at the start of the motion
+  /// @param certified_gap  separation of its pair there [m]
+  void add(const Row& row, Scalar certified_gap, bool is_tight) noexcept {
+    contacts_.push_back({row, certified_gap, is_tight, false});
+  }
+
+  /// Before another linearisation: no row is in the problem.
+  void release() noexcept {
+    for (Contact& contact : contacts_) contact.is_in_problem = false;
+  }
+  /// Adds to a problem, linearised where the motion has come `so_far`, the rows that the `whole` motion would break; false if it breaks none.
+  template <class Problem>
+  bool keep_broken(const Twist<Scalar>& so_far, const Twist<Scalar>& whole, Scalar margin, Problem& problem) noexcept {
+    bool breaks_any = false;
+    for (Contact& contact : contacts_) {
+      const Scalar enough = std::min(margin, contact.row.gap) / 10;
+      if (contact.is_in_problem || !(contact.row.carried(whole).gap < enough)) continue;
+      contact.is_in_problem = problem.keep(contact.row.carried(so_far), contact.certified_gap, contact.is_tight);
+      breaks_any = breaks_any || contact.is_in_problem;
+    }
+    return breaks_any;
+  }
+
+ private:
+  struct Contact {
+    Row row;
+    Scalar certified_gap;
+    bool is_tight;
+    bool is_in_problem;
+  };
+
+  FixedVector<Contact, capacity> contacts_;
+};
+
+}  // namespace feeler
