@@ -120,7 +120,7 @@ class ActiveOperators {
     const int last = used_ - 1;
     if (last == 0) return reset(inverse);
     const Scalar factor = Scalar(1) / curvature;
-    Column gained{};
+    alignas(64) Column gained{};
     Six<Scalar> direction;
     for (std::size_t j = 0; j < 6; ++j) {
       gained[j] = -dual[j];  // P gains what N* loses
