@@ -69,9 +69,9 @@ Crossing cross(const Tool& tool, double tip, double depth, double turn) {
 }
 
 /// Each crossing is made in the tick in which its side of the ridge no longer holds the tool.
-void check(const Crossing& found, int iterations) {
+void check(const Crossing& found) {
   BOOST_TEST(found.slips == 2);
-  BOOST_TEST(found.most_iterations <= iterations);
+  BOOST_TEST(found.most_iterations <= 11);
   BOOST_TEST(found.unconverged == 0);
   BOOST_TEST(found.farthest < 1.001e-6);
 }
@@ -80,7 +80,7 @@ void check(const Crossing& found, int iterations) {
 
 BOOST_AUTO_TEST_CASE(a_point_slips_over_it_at_once) {
   for (const double depth : {0.006, 0.007, 0.009}) {
-    BOOST_TEST_CONTEXT("depth " << depth << " m") check(cross(Point<double>(), 0, depth, 0), 11);
+    BOOST_TEST_CONTEXT("depth " << depth << " m") check(cross(Point<double>(), 0, depth, 0));
   }
 }
 
@@ -89,7 +89,7 @@ BOOST_AUTO_TEST_CASE(a_tip_that_turns_slips_over_it_at_once) {
   corners << 0, 0, -0.01, 0.002, 0, 0.01, 0, 0.002, 0.01, -0.002, 0, 0.01, 0, -0.002, 0.01;
   for (const double depth : {0.006, 0.007, 0.009}) {
     BOOST_TEST_CONTEXT("depth " << depth << " m")
-    check(cross(ConvexPolytope<double>::hull_of(corners), -0.01, depth, 0.1), 11);
+    check(cross(ConvexPolytope<double>::hull_of(corners), -0.01, depth, 0.1));
   }
 }
 

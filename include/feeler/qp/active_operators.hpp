@@ -22,14 +22,14 @@ class ActiveOperators {
  public:
   using Group = Lanes<Scalar, lanes>;
   static constexpr int slot_count = 6;
-  /// Six numbers, in whole groups.
-  using Column = std::array<Scalar, lanes <= 2 ? 6 : 8>;
+  /// Six numbers, in whole groups and aligned to them.
+  struct alignas(Group) Column : std::array<Scalar, lanes <= 2 ? 6 : 8> {};
 
   /// The images of a vector: `step` is P·v, and `share` is N*·v, a number a slot; behind the slots in use it
   /// is some number.
   struct Image {
-    alignas(64) Column step{};
-    alignas(64) Column share{};
+    Column step{};
+    Column share{};
   };
 
   /// Sets one number of a column.
@@ -120,7 +120,7 @@ class ActiveOperators {
     const int last = used_ - 1;
     if (last == 0) return reset(inverse);
     const Scalar factor = Scalar(1) / curvature;
-    alignas(64) Column gained{};
+    Column gained{};
     Six<Scalar> direction;
     for (std::size_t j = 0; j < 6; ++j) {
       gained[j] = -dual[j];  // P gains what N* loses
@@ -197,7 +197,7 @@ class ActiveOperators {
 
  private:
   using SixGroups = std::array<Group, 6>;
-  struct alignas(64) Columns : std::array<Column, 6> {};
+  using Columns = std::array<Column, 6>;
 
   static std::size_t index(int i) noexcept { return std::size_t(i); }
 

@@ -403,7 +403,7 @@ class DualActiveSet {
   alignas(64) std::array<Scalar, std::size_t(Problem::row_capacity)> relaxed_bounds_{};
   Six gradient_{};
   Six x_{};
-  alignas(64) typename Operators::Column multipliers_{};  // a number a slot in use
+  typename Operators::Column multipliers_{};  // a number a slot in use
   std::array<int, 6> slots_{};
   Scalar dependent_angle_ = Scalar(0);  // of a row with the span of others, in the metric of H⁻¹ [rad]
   bool is_careful_ = false;
