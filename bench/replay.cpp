@@ -6,6 +6,7 @@
 #include <cstdio>
 #include <ctime>
 #include <filesystem>
+#include <numeric>
 #include <string>
 #include <vector>
 
@@ -33,6 +34,7 @@ struct Options {
   int settle_every = 0;       // contact ticks between looks at where the tool would settle; 0: none
   int work_budget = 0;        // 0: the library's default
   double margin = 0.0;        // [m]; 0: the library's default
+  bool counts_work = false;   // report the work of a tick in place of its time
 };
 
 /// What one replay found.
@@ -40,7 +42,8 @@ struct Figures {
   int ticks = 0;
   int checked = 0;
   int converged = 0;
-  std::vector<double> microseconds, iterations, rows, work;  // of contact ticks
+  std::vector<double> cost;                                  // of contact ticks: time [µs] or work
+  std::vector<double> iterations, rows;                      // of contact ticks
   std::vector<double> distance, distance_if_converged;       // to where the held device settles [m]
   double deepest = 0.0;
 };
@@ -94,12 +97,11 @@ Figures replay(const feeler::scenes::Setting& scene, const Tool& tool, const Opt
     const auto& tick = renderer.update(haptic);
     const double end = thread_time();
     if (metric.energy(motion_between(haptic, tick.graphic_pose)) > contact_energy) {
-      figures.microseconds.push_back(end - begin);
+      figures.cost.push_back(options.counts_work ? tick.work : end - begin);
       figures.iterations.push_back(tick.iterations);
       figures.rows.push_back(tick.rows);
-      figures.work.push_back(tick.work);
       figures.converged += tick.converged() ? 1 : 0;
-      if (options.settle_every > 0 && int(figures.work.size()) % options.settle_every == 0) {
+      if (options.settle_every > 0 && int(figures.cost.size()) % options.settle_every == 0) {
         const double distance = distance_to_settled(renderer, haptic, metric);
         figures.distance.push_back(distance);
         if (tick.converged()) figures.distance_if_converged.push_back(distance);
@@ -128,17 +130,23 @@ double near_share(const std::vector<double>& distance) {
   return 100.0 * double(near) / double(std::max<std::size_t>(distance.size(), 1));
 }
 
-void print_header() {
-  std::printf("%-18s %13s %7s | %7s %7s %7s %7s | %7s %7s | %9s %9s %9s | %9s\n", "scene", "contact/ticks", "conv %",
-              "p50 µs", "p99", "p99.9", "max", "rows", "iter99", "≤0.1 µm %", "of conv %", "p98 µm", "deepest m");
+double mean(const std::vector<double>& values) {
+  return std::accumulate(values.begin(), values.end(), 0.0) / double(std::max<std::size_t>(values.size(), 1));
+}
+
+void print_header(const Options& options) {
+  const char* cost = options.counts_work ? "p50" : "p50 µs";
+  if (options.counts_work) std::printf("work of a contact tick: 1 is a distance query\n");
+  std::printf("%-18s %13s %7s | %7s %7s %7s %7s %7s | %7s %7s | %9s %9s %9s | %9s\n", "scene", "contact/ticks", "conv %", "mean",
+              cost, "p99", "p99.9", "max", "rows", "iter99", "≤0.1 µm %", "of conv %", "p98 µm", "deepest m");
 }
 
 void print(const std::string& name, const Figures& figures, const Options& options) {
-  const auto& us = figures.microseconds;
-  const double contacts = double(std::max<std::size_t>(us.size(), 1));
-  std::printf("%-18s %6zu/%6d %7.2f | %7.1f %7.1f %7.1f %7.1f | %7.0f %7.0f | ", name.c_str(), us.size(), figures.ticks,
-              100.0 * figures.converged / contacts, quantile(us, 0.5), quantile(us, 0.99), quantile(us, 0.999),
-              quantile(us, 1.0), quantile(figures.rows, 0.5), quantile(figures.iterations, 0.99));
+  const auto& cost = figures.cost;
+  const double contacts = double(std::max<std::size_t>(cost.size(), 1));
+  std::printf("%-18s %6zu/%6d %7.2f | %7.1f %7.1f %7.1f %7.1f %7.1f | %7.0f %7.0f | ", name.c_str(), cost.size(), figures.ticks,
+              100.0 * figures.converged / contacts, mean(cost), quantile(cost, 0.5), quantile(cost, 0.99), quantile(cost, 0.999),
+              quantile(cost, 1.0), quantile(figures.rows, 0.5), quantile(figures.iterations, 0.99));
   if (figures.distance.empty()) {
     std::printf("%9s %9s %9s | ", "-", "-", "-");
   } else {
@@ -176,9 +184,10 @@ int main(int argc, char** argv) {
   app.add_option("--settle", options.settle_every, "hold the device at every Nth contact tick and see where the tool settles; 0 for none")->check(CLI::NonNegativeNumber);
   app.add_option("--budget", options.work_budget, "Settings::work_budget; 0 for the default")->check(CLI::NonNegativeNumber);
   app.add_option("--margin", options.margin, "Settings::margin in metres; 0 for the default")->check(CLI::NonNegativeNumber);
+  app.add_flag("--work", options.counts_work, "report the work of a tick, which does not depend on the machine, in place of its time");
   return feeler::bench::run_with_options(app, argc, argv, [&] {
     const auto wanted = [&](const std::string& name) { return options.scene == "all" || options.scene == name; };
-    print_header();
+    print_header(options);
     for (const auto& entry : feeler::scenes::catalogue()) {
       if (!wanted(entry.family)) continue;
       std::visit([&](const auto& scene) { run(entry.label, scene, options); }, entry.make());

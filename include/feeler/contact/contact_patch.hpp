@@ -13,6 +13,7 @@
 #include "feeler/core/fixed_vector.hpp"
 #include "feeler/core/scalar.hpp"
 #include "feeler/object/normal_cone.hpp"
+#include "feeler/object/surface_walk.hpp"
 #include "feeler/object/triangle_mesh.hpp"
 #include "feeler/proximity/gjk.hpp"
 #include "feeler/tool/convex_tool.hpp"
@@ -73,7 +74,7 @@ class ContactPatch {
     add_vertices_on_face(rows);
     if (near_.size() > 1) add_edges(rows);
     if (near_.size() > 2) add_corners_on_faces(rows);
-    const Scalar close_enough = closest.distance + std::abs(closest.distance) / 1000 + Scalar(1e-9);
+    const Scalar close_enough = closest.distance + std::abs(closest.distance) / 1000 + seam() + rounding_of(closest.distance);
     const bool is_met = std::any_of(rows.begin(), rows.end(), [&](const Row& row) { return row.gap <= close_enough; });
     // Overlapping shapes have no closest points: the deepest vertex may lie beside the triangle, where nothing holds it.
     if (is_met || (closest.is_touching && !rows.empty())) return true;
@@ -95,10 +96,17 @@ class ContactPatch {
   // Features whose own normal differs more from the contact's belong to another part of the surface.
   static constexpr Scalar least_cosine = Scalar(9) / 10;
   static constexpr Scalar cone_tolerance = Scalar(1e-6);
-  // A point so little beside a face counts as over it, or rounding would let it through between two faces [m].
-  static constexpr Scalar seam = Scalar(1e-9);
 
   static std::size_t index(int i) noexcept { return std::size_t(i); }
+
+  /// A point so little beside a face counts as over it, or rounding would let it through between two faces [m].
+  Scalar seam() const noexcept { return band_ / 100000; }
+
+  /// What a distance may fall short of the truth by [m]: the direction between points so near is rounded, which shows at the ends of a long triangle.
+  Scalar rounding_of(Scalar distance) const noexcept {
+    const Scalar squared_size = std::max((corners_.col(1) - corners_.col(0)).squaredNorm(), (corners_.col(2) - corners_.col(0)).squaredNorm());
+    return 16 * std::numeric_limits<Scalar>::epsilon() * squared_size / std::max(std::abs(distance), band_ / 1000);
+  }
 
   /// The tool vertices in the band, from the lowest along edges: below any height a convex tool hangs together.
   void gather_near_vertices(const ClosestPoints<Scalar>& closest) noexcept {
@@ -139,22 +147,11 @@ class ContactPatch {
   /// Whether a point that may lie beside the triangle is over the flat part of the surface that it belongs to; past its rim nothing holds.
   bool is_over_surface(const Vector& point) const noexcept {
     constexpr int longest_walk = 16;
-    const auto corner = [this](int triangle, int k) {
-      return Vector(mesh_.vertex(mesh_.triangle(triangle)[index(k)]).template cast<Scalar>());
-    };
-    const Vector point_world = world_from_tool_ * (point - corners_.col(0)) + corner(triangle_, 0);
+    const Vector origin = mesh_.vertex(mesh_.triangle(triangle_)[0]).template cast<Scalar>();
+    const Vector point_world = world_from_tool_ * (point - corners_.col(0)) + origin;
     int triangle = triangle_;
     for (int step = 0; step < longest_walk; ++step) {
-      const Vector normal = mesh_.normal(triangle).template cast<Scalar>();
-      int edge = -1;
-      Scalar farthest = -seam;
-      for (int k = 0; k < 3; ++k) {
-        const Scalar height = inward(corner(triangle, k), corner(triangle, (k + 1) % 3), point_world, normal);
-        if (height < farthest) {
-          farthest = height;
-          edge = k;
-        }
-      }
+      const int edge = edge_towards(mesh_, triangle, point_world, seam());
       if (edge < 0) return true;
       if (mesh_.topology().edge_convexity(triangle, edge) != Convexity::flat) return false;
       triangle = mesh_.topology().neighbour(triangle, edge);
@@ -171,7 +168,7 @@ class ContactPatch {
       if (std::abs(gap) > 2 * band_) continue;
       Scalar room = std::numeric_limits<Scalar>::infinity();
       for (int k = 0; k < 3; ++k) room = std::min(room, inward(corners_.col(k), corners_.col((k + 1) % 3), vertex, face_normal_));
-      if (room >= -seam) rows.push_back(row_of(FeaturePair::vertex_face, normal, vertex, gap, room));
+      if (room >= -seam()) rows.push_back(row_of(FeaturePair::vertex_face, normal, vertex, gap, room));
     }
   }
 
@@ -232,7 +229,7 @@ class ContactPatch {
       for (std::size_t i = 0; i < loop.size(); ++i) {
         room = std::min(room, inward(tool_.vertex(loop[i]), tool_.vertex(loop[(i + 1) % loop.size()]), corner, outward));
       }
-      if (!(room >= -seam) || !is_clear_of_neighbours_at_corner(k, Vector(-outward))) continue;
+      if (!(room >= -seam()) || !is_clear_of_neighbours_at_corner(k, Vector(-outward))) continue;
       rows.push_back(row_of(FeaturePair::face_vertex, Vector(-outward), corner, gap, room));
     }
   }
@@ -307,7 +304,7 @@ class ContactPatch {
       const Vector between = on_tool - start - along * object;
       const Scalar height = normal_.dot(between);
       // Far apart across the normal they only look parallel: no contact there.
-      if (std::abs(on_surface(height)) > 2 * band_ || (between - height * normal_).norm() > std::abs(height) + Scalar(1e-9)) continue;
+      if (std::abs(on_surface(height)) > 2 * band_ || (between - height * normal_).norm() > std::abs(height) + seam()) continue;
       if constexpr (SweptTool<Tool>) {
         const Scalar distance = between.norm();
         Row row = row_of(FeaturePair::vertex_face, Vector(between / distance), on_tool, on_surface(distance));
@@ -330,7 +327,7 @@ class ContactPatch {
   Row row_of(FeaturePair kind, const Vector& normal, const Vector& point, Scalar gap, Scalar room = Scalar(0)) const noexcept {
     Row row;
     row.kind = kind;
-    row.room = std::max({room, gap / 20, seam});
+    row.room = std::max({room, gap / 20, seam()});
     row.normal = world_from_tool_ * normal;
     row.arm = world_from_tool_ * (point - reference_);
     row.gap = gap;

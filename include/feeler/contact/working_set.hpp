@@ -22,7 +22,6 @@ struct WorkingPair {
   bool is_ghost = false;    ///< at the certified pose a neighbour was nearer, and its plane means nothing
   bool is_tight = false;    ///< there was no room for the margin at its last step
   bool keeps_ghost = false; ///< it blocked although its row looked like a ghost: give it a row all the same
-  bool keeps_contact = false; ///< it blocked a motion from where the two touched: its row there holds for the whole of the next
 
   /// Whether the separation is certainly more than a distance [m].
   bool is_beyond(Scalar distance) const noexcept { return slack - moved > distance; }
@@ -39,6 +38,7 @@ class WorkingSet {
   int size() const noexcept { return pairs_.size(); }
   Pair& operator[](int i) noexcept { return pairs_[i]; }
   const Pair& operator[](int i) const noexcept { return pairs_[i]; }
+  bool full() const noexcept { return pairs_.full(); }
   void clear() noexcept { pairs_.clear(); }
 
   /// Position of a pair, or -1.
@@ -76,7 +76,7 @@ class WorkingSet {
     for (int i = pairs_.size() - 1; i >= 0; --i) {
       Pair& pair = pairs_[i];
       pair.idle_ticks = pair.slack < touch ? 1 : pair.idle_ticks + 1;
-      if (!goes_on) pair.keeps_ghost = pair.keeps_contact = false;
+      if (!goes_on) pair.keeps_ghost = false;
       if (pair.idle_ticks > longest || (pair.idle_ticks > 1 && pair.slack > reach)) pairs_.swap_remove(i);
     }
   }

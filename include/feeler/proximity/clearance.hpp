@@ -11,11 +11,18 @@ namespace feeler {
 template <class Scalar>
 struct Clearance {
   Scalar kept = Scalar(1e-7);        ///< separation required wherever there is that much to begin with [m]
+  Scalar kept_from_unknown = kept;   ///< the same from triangles that a sweep is not told of: they are to be known before they hold the tool [m]
   Scalar allowance = Scalar(5e-12);  ///< overlap accepted where there is no clearance at all; rounding, never accumulated [m]
   Scalar touching = Scalar(1e-8);    ///< see `touching_distance` [m]
   Scalar resolution = Scalar(2.5e-7);  ///< advance too small to look for [m]
   Scalar probe = Scalar(1e-4);         ///< length of motion over which all blockers are wanted, not only the first [m]
 
+  /// The same, with what is kept from unknown triangles kept from all.
+  Clearance from_unknown() const noexcept {
+    Clearance clearance = *this;
+    clearance.kept = kept_from_unknown;
+    return clearance;
+  }
   /// Separation required along a motion that starts `start` away: tight fits may halve it, an overlap may stay but not grow.
   Scalar required(Scalar start) const noexcept {
     if (start >= 2 * kept) return std::min(kept, start);  // kept may be an overlap itself

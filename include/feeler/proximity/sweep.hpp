@@ -63,7 +63,7 @@ class Sweep {
   static constexpr int tests_per_work = 24;
 
   Sweep(PlaneCache<Scalar>& planes, const Clearance<Scalar>& clearance) noexcept
-      : planes_(planes), clearance_(clearance) {}
+      : planes_(planes), from_known_(clearance), clearance_(clearance.from_unknown()) {}
 
   /// @param known   triangles to examine first, exactly; the traversal skips them
   /// @param work    grows by the work done
@@ -80,7 +80,7 @@ class Sweep {
     planes_.age();
     for (const KnownTriangle<Scalar>& pair : known) {
       if (passes(pair.state.corners)) continue;
-      examine(pair.triangle, pair.state, moving, mesh, result, work);
+      examine(pair.triangle, pair.state, from_known_, moving, mesh, result, work);
       if (work > limit) return give_up(result);
     }
 
@@ -110,7 +110,7 @@ class Sweep {
         const Matrix3<Scalar> corners =
             mesh.corners(triangle).template cast<Scalar>().colwise() - moving.origin();
         if (passes(corners) || is_among(triangle, known)) continue;
-        examine(triangle, {corners, Vector::Zero(), {}, false}, moving, mesh, result, work);
+        examine(triangle, {corners, Vector::Zero(), {}, false}, clearance_, moving, mesh, result, work);
       }
     }
     return result;
@@ -145,9 +145,9 @@ class Sweep {
   }
 
   template <class MeshScalar>
-  void examine(int triangle, const PassedTriangle<Scalar>& state, const MovingTool<Tool>& moving,
+  void examine(int triangle, const PassedTriangle<Scalar>& state, const Clearance<Scalar>& clearance, const MovingTool<Tool>& moving,
                const TriangleMesh<MeshScalar>& mesh, SweepResult<Scalar>& result, int& work) noexcept {
-    const Passage<Scalar> passage = pass(moving, state, start_, end_, clearance_, work);
+    const Passage<Scalar> passage = pass(moving, state, start_, end_, clearance, work);
     if (!passage.is_blocked) {
       if (passage.normal.squaredNorm() > Scalar(0) && !state.is_exact) add_plane(passage.normal, moving, mesh);
       return;
@@ -241,7 +241,8 @@ class Sweep {
   }
 
   PlaneCache<Scalar>& planes_;
-  Clearance<Scalar> clearance_;
+  Clearance<Scalar> from_known_;
+  Clearance<Scalar> clearance_;  // from all others
   Frame start_;
   Frame end_;
   std::array<float, 3> lower_{}, upper_{};

@@ -9,6 +9,7 @@
 #include "feeler/contact/contact_patch.hpp"
 #include "feeler/contact/working_set.hpp"
 #include "feeler/core/status.hpp"
+#include "feeler/object/surface_walk.hpp"
 #include "feeler/object/triangle_normal.hpp"
 #include "feeler/render/contact_method.hpp"
 #include "feeler/render/kept_contacts.hpp"
@@ -97,6 +98,7 @@ class ClosestFeaturesFollower {
     bool is_settled = false;   // another linearisation would not change it
     bool is_capped = false;    // the trust region cut it
     bool is_free = false;      // no contact holds the tool
+    bool keeps_contacts = false;  // it would have broken contacts of its start
     Scalar restoration = 0;   // energy that it may cost to win the margin back [m²]
   };
 
@@ -147,18 +149,25 @@ class ClosestFeaturesFollower {
 
   /// True when it arrived at a local minimum.
   bool advance(const Scene& scene, Tick<MeshScalar>& tick) noexcept {
-    constexpr Scalar resting = Scalar(1e-11);
+    const Scalar tolerance = Scalar(scene.settings().step_tolerance);
+    const Scalar resting = tolerance / 500000;
     const int maximum_iterations =
         std::min(scene.settings().maximum_iterations, Tick<MeshScalar>::path_capacity - IdleTurns<typename Scene::Tool>::legs);
     const auto& turns = scene.idle_turns();
-    for (tick.iterations = 0; tick.iterations < maximum_iterations;) {
+    keeps_contacts_ = true;
+    tick.iterations = 0;
+    do {
       ++tick.iterations;
       const Proposal proposal = propose(scene, tick);
       const Scalar length = scene.length_of(proposal.motion, pose_);
+      if (proposal.keeps_contacts && !proposal.is_settled && length < tolerance) {
+        // What is kept may hide that a triangle is not known yet: without it that one will block, and be known.
+        keeps_contacts_ = false;
+        continue;
+      }
       if (length <= resting) return proposal.is_settled && !proposal.is_capped;
       if (!descends(scene, turns.moved(pose_, proposal.motion), proposal.restoration)) {
         narrow(std::min(trust_, length) / 4);
-        if (trust_ < resting) break;
         continue;
       }
       const auto result = certify(scene, proposal.motion, tick);
@@ -181,10 +190,10 @@ class ClosestFeaturesFollower {
           narrow(length * std::max(result.time, Scalar(1) / 4));
         }
       }
-      if (tick.work >= work_budget(scene) || trust_ < resting) break;
-    }
-    trust_ = std::clamp(trust_, Scalar(1e-7), scene.trust_radius());
-    flight_ = std::max(flight_, Scalar(1e-7));
+    } while (tick.iterations < maximum_iterations && tick.work < work_budget(scene) && !(trust_ < resting));
+    const Scalar least = scene.trust_radius() / 4000;
+    trust_ = std::clamp(trust_, least, scene.trust_radius());
+    flight_ = std::max(flight_, least);
     return false;
   }
 
@@ -208,8 +217,9 @@ class ClosestFeaturesFollower {
       linearise(scene, pose, round == 0, !rests_on_assumption, tick);
       solve(scene, pose, proposal.is_capped);
       if (round == 0) proposal.restoration = problem_.cost_of_restoration();
-      if (round > 0) keep_contacts(scene, pose, proposal.is_capped);
+      if (round > 0 && keep_contacts(scene, pose, proposal.is_capped)) proposal.keeps_contacts = true;
       note_tight_pairs();
+      learn_passed(scene, pose, tick);
       const Vector6<Scalar>& step = problem_.solution().step;
       pose = turns.moved(pose, Twist<Scalar>::from_vector(step));
       proposal.motion = turns.motion_between(pose_, pose);
@@ -245,17 +255,34 @@ class ClosestFeaturesFollower {
   }
 
   /// Whether a contact is close enough to be broken by any motion; where there is no clearance at all, rounding decides which is.
-  static bool touches(const Scene& scene, Scalar gap) noexcept { return gap > Scalar(1e-9) && gap < 4 * scene.margin(); }
+  static bool touches(const Scene& scene, Scalar gap) noexcept { return gap > scene.margin() / 1000 && gap < 4 * scene.margin(); }
 
-  /// Solves again with the contacts of the certified pose that the motion would break.
-  void keep_contacts(const Scene& scene, const Pose<Scalar>& pose, bool is_capped) noexcept {
+  /// Solves again with the contacts of the certified pose that the motion would break; false if it breaks none.
+  bool keep_contacts(const Scene& scene, const Pose<Scalar>& pose, bool is_capped) noexcept {
     const auto& turns = scene.idle_turns();
     const Twist<Scalar> so_far = turns.motion_between(pose_, pose);
+    const auto whole = [&] { return turns.motion_between(pose_, turns.moved(pose, Twist<Scalar>::from_vector(problem_.solution().step))); };
     kept_.release();
-    for (int round = 0; round < 2; ++round) {
-      const Pose<Scalar> end = turns.moved(pose, Twist<Scalar>::from_vector(problem_.solution().step));
-      if (!kept_.keep_broken(so_far, turns.motion_between(pose_, end), scene.margin(), problem_)) break;
+    bool keeps_any = false;
+    for (int round = 0; round < 2 && kept_.keep_broken(so_far, whole(), scene.margin(), problem_); ++round) {
       solve(scene, pose, is_capped);
+      keeps_any = true;
+    }
+    return keeps_any;
+  }
+
+  /// Takes the triangles that the contacts of a solution pass over to into the working set: the row of one they have left hides them.
+  void learn_passed(const Scene& scene, const Pose<Scalar>& pose, Tick<MeshScalar>& tick) noexcept {
+    const auto step = Twist<Scalar>::from_vector(problem_.solution().step);
+    for (const auto& active : problem_.solution().active) {
+      const Row& row = problem_.row(active.row);
+      if (row.kind != FeaturePair::vertex_face || problem_.is_relaxed(active.row) || working_set_.full()) continue;
+      const Vector3<Scalar> point = pose.translation + step.linear + row.carried(step).arm;
+      const int triangle = triangle_under(scene.object(), row.triangle, point);
+      if (triangle < 0 || working_set_.find(row.piece, triangle) >= 0) continue;
+      Pair& pair = take_in(scene, row.piece, triangle);
+      const Matrix3<Scalar> axes = pose_.rotation.toRotationMatrix();
+      measure(scene, scene.in_tool(pair.corners_world, pose_, axes), axes, pair, true, tick);
     }
   }
 
@@ -277,14 +304,7 @@ class ClosestFeaturesFollower {
         continue;
       }
       const Matrix3<Scalar> corners = scene.in_tool(pair.corners_world, pose, axes);
-      const auto closest = closest_points(scene, corners, axes, pair, is_certified);
-      ++tick.work;
-      pair.features = closest.features;
-      if (is_certified) {
-        pair.normal = axes * closest.normal;
-        pair.slack = closest.distance;
-        pair.moved = Scalar(0);
-      }
+      const auto closest = measure(scene, corners, axes, pair, is_certified, tick);
       ContactPatch<Piece, MeshScalar> patch(scene.piece(pair.piece), scene.incidence(pair.piece), scene.object(), axes, scene.reference(), band, assumes_valleys);
       pair.has_rows = patch.find(pair.triangle, corners, closest, pair.keeps_ghost, rows);
       if (is_certified) pair.is_ghost = !pair.has_rows;
@@ -292,7 +312,7 @@ class ClosestFeaturesFollower {
         row.piece = pair.piece;
         row.triangle = pair.triangle;
         problem_.add(row, pair.slack, pair.is_tight);
-        if (is_certified && pair.keeps_contact && touches(scene, row.gap)) kept_.add(row, pair.slack, pair.is_tight);
+        if (is_certified && keeps_contacts_ && !pair.is_tight && !row.is_assumed && touches(scene, row.gap)) kept_.add(row, pair.slack);
       }
     }
     tick.rows = problem_.row_count();
@@ -316,6 +336,20 @@ class ClosestFeaturesFollower {
       closest.normal = own;
       closest.distance = distance;
     }
+  }
+
+  /// Closest points of a pair, with the corners in the tool frame of a pose with the axes given; at the certified pose they are remembered.
+  ClosestPoints<Scalar> measure(const Scene& scene, const Matrix3<Scalar>& corners, const Matrix3<Scalar>& axes, Pair& pair, bool is_certified,
+                                Tick<MeshScalar>& tick) const noexcept {
+    const auto closest = closest_points(scene, corners, axes, pair, is_certified);
+    ++tick.work;
+    pair.features = closest.features;
+    if (is_certified) {
+      pair.normal = axes * closest.normal;
+      pair.slack = closest.distance;
+      pair.moved = Scalar(0);
+    }
+    return closest;
   }
 
   /// Closest points of a pair. On the way the tool may overlap it; then the plane it had at the certified pose says which features meet.
@@ -343,13 +377,18 @@ class ClosestFeaturesFollower {
     return certificate_.certify(scene, pose_, motion, tick.work, limit, working_set_, reach_of_step(scene));
   }
 
-  /// Takes what blocked into the working set; false when all of it was there already with rows of its own, kept where it touched.
+  Pair& take_in(const Scene& scene, int piece, int triangle) noexcept {
+    working_set_.add(piece, triangle, scene.object().corners(triangle).template cast<Scalar>());
+    return working_set_[working_set_.size() - 1];
+  }
+
+  /// Takes what blocked into the working set; false when all of it was there already with rows of its own.
   bool admit(const Scene& scene, const SweepResult<Scalar>& result) noexcept {
     bool is_new = false;
     for (const auto& blocker : result.blockers) {
       int i = working_set_.find(blocker.piece, blocker.triangle);
       if (i < 0) {
-        working_set_.add(blocker.piece, blocker.triangle, scene.object().corners(blocker.triangle).template cast<Scalar>());
+        take_in(scene, blocker.piece, blocker.triangle);
         is_new = true;
         continue;
       }
@@ -359,10 +398,6 @@ class ClosestFeaturesFollower {
         pair.keeps_ghost = true;
         is_new = true;
       }
-      if (!pair.keeps_contact && !pair.is_tight && touches(scene, pair.slack)) {
-        pair.keeps_contact = true;
-        is_new = true;
-      }
     }
     return is_new;
   }
@@ -370,6 +405,7 @@ class ClosestFeaturesFollower {
   Pose<Scalar> pose_;     // the certified pose
   Pose<Scalar> target_;   // the haptic pose
   bool goes_on_ = false;  // the last tick left motion for this one
+  bool keeps_contacts_ = true;  // contacts of the certified pose are kept
   int patience_ = 0;      // doublings of the work budget
   int unhindered_ = 0;    // motions of the trust radius and more in a row that nothing stopped
   bool leaves_out_pairs_ = false;  // the last linearisation had pairs beyond its reach

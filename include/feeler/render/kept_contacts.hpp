@@ -9,13 +9,11 @@
 
 namespace feeler {
 
-/// Rows of pairs that blocked a motion from where they touched.
+/// Rows of the pairs that touch where a motion begins.
 ///
 /// A motion is linearised again where its first step ends, and there other features are closest: a point that has slid over a ridge knows
-/// the far side alone. The chord to a point on that side runs through the ridge, and is blocked at once. From then on the row of the start is
-/// carried along, and kept wherever a motion would break it: the tool leaves the ridge along the tangent, and comes down in the next iteration.
-///
-/// Rows that have not blocked are not kept: at a seam, or where the triangle beside is not known yet, they would hold what is free.
+/// the far side alone. The chord to a point on that side runs through the ridge, and would be blocked at once. So the rows of the start are
+/// carried along, and kept where a motion would break them: the tool leaves the ridge along the tangent, and comes down in the next iteration.
 template <class Row, int capacity>
 class KeptContacts {
  public:
@@ -24,9 +22,7 @@ class KeptContacts {
   void clear() noexcept { contacts_.clear(); }
   /// @param row            at the start of the motion
   /// @param certified_gap  separation of its pair there [m]
-  void add(const Row& row, Scalar certified_gap, bool is_tight) noexcept {
-    contacts_.push_back({row, certified_gap, is_tight, false});
-  }
+  void add(const Row& row, Scalar certified_gap) noexcept { contacts_.push_back({row, certified_gap, false}); }
 
   /// Before another linearisation: no row is in the problem.
   void release() noexcept {
@@ -39,7 +35,7 @@ class KeptContacts {
     for (Contact& contact : contacts_) {
       const Scalar enough = std::min(margin, contact.row.gap) / 10;
       if (contact.is_in_problem || !(contact.row.carried(whole).gap < enough)) continue;
-      contact.is_in_problem = problem.keep(contact.row.carried(so_far), contact.certified_gap, contact.is_tight);
+      contact.is_in_problem = problem.keep(contact.row.carried(so_far), contact.certified_gap);
       breaks_any = breaks_any || contact.is_in_problem;
     }
     return breaks_any;
@@ -49,7 +45,6 @@ class KeptContacts {
   struct Contact {
     Row row;
     Scalar certified_gap;
-    bool is_tight;
     bool is_in_problem;
   };
 

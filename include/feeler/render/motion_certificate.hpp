@@ -43,6 +43,7 @@ class MotionCertificate {
         for (int i = 0; i < pairs.size(); ++i) {
           if (pairs[i].piece == piece) clearance.kept = std::min(clearance.kept, clearance.required(pairs[i].slack));
         }
+        clearance.kept_from_unknown = clearance.kept;
       }
       std::array<KnownTriangle<Scalar>, std::size_t(pair_capacity)> known;
       int known_count = 0;

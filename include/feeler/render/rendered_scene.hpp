@@ -56,6 +56,7 @@ class RenderedScene {
     const Scalar size = std::max(surface, Scalar(object.bounds().diagonal().norm()));
     const Scalar rounding = 256 * std::numeric_limits<Scalar>::epsilon() * size;
     clearance_.kept = margin() / 10;
+    clearance_.kept_from_unknown = margin() * 9 / 10;  // or the tool would hop when one is found
     clearance_.allowance = std::max(clearance_.allowance, rounding);
     clearance_.touching = touching_distance(radius_);
     clearance_.probe = trust_radius() / 4;
@@ -79,6 +80,7 @@ class RenderedScene {
     const Scalar rounding = 8 * std::numeric_limits<Scalar>::epsilon() * (moving.origin().norm() + moving.length());
     Clearance<Scalar> clearance = clearance_;
     clearance.kept = std::max(clearance.kept, rounding);
+    clearance.kept_from_unknown = std::max(clearance.kept_from_unknown, rounding);
     return clearance;
   }
   Scalar margin() const noexcept { return Scalar(settings_.margin); }

@@ -41,8 +41,8 @@ class StepProblem {
     return true;
   }
   /// Appends a row that held where the motion began, to hold where it ends; no other row may follow.
-  bool keep(const Row& row, Scalar certified_gap, bool is_tight) noexcept {
-    if (!add(row, certified_gap, is_tight)) return false;
+  bool keep(const Row& row, Scalar certified_gap) noexcept {
+    if (!add(row, certified_gap, false)) return false;
     ++kept_;
     return true;
   }
