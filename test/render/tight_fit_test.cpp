@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 #include "scenes/spline.hpp"
 #include "support/rendering.hpp"
@@ -82,6 +83,33 @@ BOOST_AUTO_TEST_CASE(a_shaft_that_is_held_does_not_creep) {
       BOOST_TEST(shaft.renderer.tick().converged());
       for (int i = 0; i < ticks_to_run(1000); ++i) shaft.renderer.update(twisted);
       BOOST_TEST(pose_error(rest, shaft.renderer.tick().graphic_pose).at(0.018) <= 1e-10);
+    }
+  }
+}
+
+BOOST_AUTO_TEST_CASE(a_shaft_that_is_stopped_anywhere_comes_to_rest) {
+  for (const auto& [clearance, budget] : {std::pair{1e-4, 200}, std::pair{1e-5, 400}, std::pair{1e-5, 100}}) {
+    BOOST_TEST_CONTEXT("clearance " << clearance << ", work budget " << budget) {
+      PressedShaft shaft(clearance);
+      auto settings = shaft.scene.settings();
+      settings.work_budget = budget;
+      HapticRenderer moving(shaft.object, PressedShaft::Shaft::hulls_of(shaft.scene.pieces), settings);
+      BOOST_TEST((moving.reset(shaft.scene.start) == Status::converged));
+      int longest = 0;
+      for (int i = 1; i <= ticks_to_run(3200); ++i) {
+        const Pose<double> device = shaft.scene.motion(i * 1e-3);
+        moving.update(device);
+        if (i % 50 != 0) continue;
+        for (const double twist : {0.0, 0.02, -0.02, 0.1}) {
+          auto held = moving;
+          const Pose<double> twisted{device.translation, exp_rotation(Vector3<double>(0, 0, twist)) * device.rotation};
+          int ticks = 1;
+          while (!held.update(twisted).converged() && ticks < 300) ++ticks;
+          longest = std::max(longest, ticks);
+        }
+      }
+      BOOST_TEST_MESSAGE("clearance " << clearance << ", budget " << budget << ": at rest after " << longest << " ticks at most");
+      BOOST_TEST(longest <= 20);
     }
   }
 }

@@ -71,9 +71,12 @@ class ContactPatch {
     normal_ = closest.normal;
     gather_near_vertices(closest);
     measure_triangle();
-    add_vertices_on_face(rows);
-    if (near_.size() > 1) add_edges(rows);
-    if (near_.size() > 2) add_corners_on_faces(rows);
+    // Beyond the band one row is enough: a step that comes near is linearised again.
+    if (closest.distance <= band_) {
+      add_vertices_on_face(rows);
+      if (near_.size() > 1) add_edges(rows);
+      if (near_.size() > 2) add_corners_on_faces(rows);
+    }
     const Scalar close_enough = closest.distance + std::abs(closest.distance) / 1000 + seam() + rounding_of(closest.distance);
     const bool is_met = std::any_of(rows.begin(), rows.end(), [&](const Row& row) { return row.gap <= close_enough; });
     // Overlapping shapes have no closest points: the deepest vertex may lie beside the triangle, where nothing holds it.

@@ -64,6 +64,7 @@ class PlaneCache {
     for (int i = 1; i < size_; ++i) {
       for (int k = i; k > 0 && planes_[index(k)].hits > planes_[index(k - 1)].hits; --k) std::swap(planes_[index(k)], planes_[index(k - 1)]);
     }
+    while (size_ > 0 && planes_[index(size_ - 1)].hits == 0) --size_;
   }
 
   template <class Moving>

@@ -6,6 +6,8 @@
 #include <limits>
 #include <span>
 
+#include <Eigen/Core>
+
 #include "feeler/core/fixed_vector.hpp"
 #include "feeler/core/scalar.hpp"
 #include "feeler/object/triangle_mesh.hpp"
@@ -118,9 +120,13 @@ class Sweep {
 
  private:
   using Frame = MotionFrame<Scalar>;
-  struct BoxPlane {
-    std::array<float, 3> normal, size;  // size: the normal's magnitudes
-    float limit;
+  static constexpr int lanes = 4;
+  using Lanes = Eigen::Array<float, lanes, 1>;
+  /// Planes for boxes, to be tested together.
+  struct BoxPlanes {
+    std::array<Lanes, 3> normal{Lanes::Zero(), Lanes::Zero(), Lanes::Zero()};
+    std::array<Lanes, 3> size = normal;  // the normals' magnitudes
+    Lanes limit = Lanes::Constant(-std::numeric_limits<float>::infinity());  // of no plane: nothing passes
   };
 
   /// Whether the tool comes to a box after another one: an early blocker saves work on all that lies behind it.
@@ -193,12 +199,12 @@ class Sweep {
     const Vector to_boxes = moving.origin() - mesh.bvh().origin().template cast<Scalar>();
     const auto bounds = mesh.bounds();
     const Scalar extent = Scalar(bounds.diagonal().norm());
-    BoxPlane& plane = box_planes_[std::size_t(i)];
+    BoxPlanes& planes = box_planes_[std::size_t(i / lanes)];
     for (int k = 0; k < 3; ++k) {
-      plane.normal[std::size_t(k)] = float(normal[k]);
-      plane.size[std::size_t(k)] = std::abs(float(normal[k]));
+      planes.normal[std::size_t(k)][i % lanes] = float(normal[k]);
+      planes.size[std::size_t(k)][i % lanes] = std::abs(float(normal[k]));
     }
-    plane.limit = round_down(planes_.limit(i) + normal.dot(to_boxes), extent);
+    planes.limit[i % lanes] = round_down(planes_.limit(i) + normal.dot(to_boxes), extent);
   }
 
   static float round_down(Scalar value, Scalar extent) noexcept {
@@ -217,14 +223,15 @@ class Sweep {
       centre[k] = (node.upper[k] + node.lower[k]) / 2;
       half[k] = (node.upper[k] - node.lower[k]) / 2;
     }
-    for (int i = 0; i < planes_.size(); ++i) {
-      const BoxPlane& plane = box_planes_[std::size_t(i)];
-      const float height = plane.normal[0] * centre[0] + plane.normal[1] * centre[1] + plane.normal[2] * centre[2] +
-                           plane.size[0] * half[0] + plane.size[1] * half[1] + plane.size[2] * half[2];
-      if (height <= plane.limit) {
-        planes_.count_hit(i);
-        return true;
-      }
+    for (int first = 0; first < planes_.size(); first += lanes) {
+      const BoxPlanes& planes = box_planes_[std::size_t(first / lanes)];
+      const Lanes room = planes.limit - (planes.normal[0] * centre[0] + planes.normal[1] * centre[1] + planes.normal[2] * centre[2] +
+                                         planes.size[0] * half[0] + planes.size[1] * half[1] + planes.size[2] * half[2]);
+      if (!(room.maxCoeff() >= 0.0f)) continue;
+      int i = 0;
+      while (!(room[i] >= 0.0f)) ++i;
+      planes_.count_hit(first + i);
+      return true;
     }
     return false;
   }
@@ -246,7 +253,7 @@ class Sweep {
   Frame start_;
   Frame end_;
   std::array<float, 3> lower_{}, upper_{};
-  std::array<BoxPlane, std::size_t(PlaneCache<Scalar>::capacity)> box_planes_;
+  std::array<BoxPlanes, std::size_t(PlaneCache<Scalar>::capacity / lanes)> box_planes_;
 };
 
 }  // namespace feeler

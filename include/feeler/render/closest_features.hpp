@@ -98,7 +98,6 @@ class ClosestFeaturesFollower {
     bool is_settled = false;   // another linearisation would not change it
     bool is_capped = false;    // the trust region cut it
     bool is_free = false;      // no contact holds the tool
-    bool keeps_contacts = false;  // it would have broken contacts of its start
     Scalar restoration = 0;   // energy that it may cost to win the margin back [m²]
   };
 
@@ -154,19 +153,21 @@ class ClosestFeaturesFollower {
     const int maximum_iterations =
         std::min(scene.settings().maximum_iterations, Tick<MeshScalar>::path_capacity - IdleTurns<typename Scene::Tool>::legs);
     const auto& turns = scene.idle_turns();
-    keeps_contacts_ = true;
+    bool came_to_nothing = false;
     tick.iterations = 0;
     do {
       ++tick.iterations;
-      const Proposal proposal = propose(scene, tick);
+      const Proposal proposal = propose(scene, came_to_nothing ? 1 : 4, tick);
       const Scalar length = scene.length_of(proposal.motion, pose_);
-      if (proposal.keeps_contacts && !proposal.is_settled && length < tolerance) {
-        // What is kept may hide that a triangle is not known yet: without it that one will block, and be known.
-        keeps_contacts_ = false;
+      if (!proposal.is_settled && !came_to_nothing && length < tolerance / 50) {
+        // One linearisation takes back what another asks for, as a triangle is missing from both: the first alone will meet it.
+        came_to_nothing = true;
         continue;
       }
       if (length <= resting) return proposal.is_settled && !proposal.is_capped;
-      if (!descends(scene, turns.moved(pose_, proposal.motion), proposal.restoration)) {
+      const bool is_nearer = descends(scene, turns.moved(pose_, proposal.motion), proposal.restoration, came_to_nothing);
+      came_to_nothing = false;
+      if (!is_nearer) {
         narrow(std::min(trust_, length) / 4);
         continue;
       }
@@ -197,17 +198,17 @@ class ClosestFeaturesFollower {
     return false;
   }
 
-  /// Whether a pose is nearer to the target than the certified one, but for what it costs to win the margin back.
-  bool descends(const Scene& scene, const Pose<Scalar>& pose, Scalar restoration) const noexcept {
+  /// Whether a pose is nearer to the target than the certified one: `strictly`, or but for what it costs to win the margin back.
+  bool descends(const Scene& scene, const Pose<Scalar>& pose, Scalar restoration, bool strictly) const noexcept {
     using std::sqrt;
     const Scalar before = scene.metric().energy(scene.idle_turns().motion_between(target_, pose_));
     const Scalar after = scene.metric().energy(scene.idle_turns().motion_between(target_, pose));
+    if (strictly) return after < before;
     return after <= before + 2 * restoration + scene.margin() * (sqrt(2 * before) + scene.margin());
   }
 
   /// Solves for the motion from the certified pose, linearising again where the first step ends.
-  Proposal propose(const Scene& scene, Tick<MeshScalar>& tick) noexcept {
-    constexpr int maximum_rounds = 4;
+  Proposal propose(const Scene& scene, int maximum_rounds, Tick<MeshScalar>& tick) noexcept {
     const auto& turns = scene.idle_turns();
     Proposal proposal;
     Pose<Scalar> pose = pose_;
@@ -217,7 +218,7 @@ class ClosestFeaturesFollower {
       linearise(scene, pose, round == 0, !rests_on_assumption, tick);
       solve(scene, pose, proposal.is_capped);
       if (round == 0) proposal.restoration = problem_.cost_of_restoration();
-      if (round > 0 && keep_contacts(scene, pose, proposal.is_capped)) proposal.keeps_contacts = true;
+      if (round > 0) keep_contacts(scene, pose, proposal.is_capped);
       note_tight_pairs();
       learn_passed(scene, pose, tick);
       const Vector6<Scalar>& step = problem_.solution().step;
@@ -257,18 +258,15 @@ class ClosestFeaturesFollower {
   /// Whether a contact is close enough to be broken by any motion; where there is no clearance at all, rounding decides which is.
   static bool touches(const Scene& scene, Scalar gap) noexcept { return gap > scene.margin() / 1000 && gap < 4 * scene.margin(); }
 
-  /// Solves again with the contacts of the certified pose that the motion would break; false if it breaks none.
-  bool keep_contacts(const Scene& scene, const Pose<Scalar>& pose, bool is_capped) noexcept {
+  /// Solves again with the contacts of the certified pose that the motion would break.
+  void keep_contacts(const Scene& scene, const Pose<Scalar>& pose, bool is_capped) noexcept {
     const auto& turns = scene.idle_turns();
     const Twist<Scalar> so_far = turns.motion_between(pose_, pose);
     const auto whole = [&] { return turns.motion_between(pose_, turns.moved(pose, Twist<Scalar>::from_vector(problem_.solution().step))); };
     kept_.release();
-    bool keeps_any = false;
     for (int round = 0; round < 2 && kept_.keep_broken(so_far, whole(), scene.margin(), problem_); ++round) {
       solve(scene, pose, is_capped);
-      keeps_any = true;
     }
-    return keeps_any;
   }
 
   /// Takes the triangles that the contacts of a solution pass over to into the working set: the row of one they have left hides them.
@@ -312,7 +310,7 @@ class ClosestFeaturesFollower {
         row.piece = pair.piece;
         row.triangle = pair.triangle;
         problem_.add(row, pair.slack, pair.is_tight);
-        if (is_certified && keeps_contacts_ && !pair.is_tight && !row.is_assumed && touches(scene, row.gap)) kept_.add(row, pair.slack);
+        if (is_certified && !pair.is_tight && !row.is_assumed && touches(scene, row.gap)) kept_.add(row, pair.slack);
       }
     }
     tick.rows = problem_.row_count();
@@ -405,7 +403,6 @@ class ClosestFeaturesFollower {
   Pose<Scalar> pose_;     // the certified pose
   Pose<Scalar> target_;   // the haptic pose
   bool goes_on_ = false;  // the last tick left motion for this one
-  bool keeps_contacts_ = true;  // contacts of the certified pose are kept
   int patience_ = 0;      // doublings of the work budget
   int unhindered_ = 0;    // motions of the trust radius and more in a row that nothing stopped
   bool leaves_out_pairs_ = false;  // the last linearisation had pairs beyond its reach
