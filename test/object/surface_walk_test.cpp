@@ -6,6 +6,7 @@
 #include <cmath>
 #include <random>
 
+#include "scenes/height_field.hpp"
 #include "support/random_geometry.hpp"
 
 BOOST_AUTO_TEST_SUITE(surface_walk)
@@ -18,24 +19,14 @@ constexpr int cells = 12;
 
 /// A sheet of 12×12 squares of two triangles with shaken corners, 1 m wide and turned in space; `height` is that of its bumps [m].
 feeler::TriangleMesh<double> sheet(std::mt19937& bits, const Eigen::Matrix3d& axes, double height) {
-  feeler::Points<double> vertices((cells + 1) * (cells + 1), 3);
-  feeler::Triangles triangles(2 * cells * cells, 3);
-  for (int i = 0; i <= cells; ++i) {
-    for (int j = 0; j <= cells; ++j) {
-      const Eigen::Vector3d shake = random_vector(bits);
-      const bool is_rim = i == 0 || j == 0 || i == cells || j == cells;
-      const double jitter = is_rim ? 0.0 : 0.2;
-      const Eigen::Vector3d corner((i + jitter * shake.x()) / cells, (j + jitter * shake.y()) / cells, height * shake.z());
-      vertices.row(i * (cells + 1) + j) = (axes * corner).transpose();
-    }
-  }
-  int triangle = 0;
-  for (int i = 0; i < cells; ++i) {
-    for (int j = 0; j < cells; ++j) {
-      const int a = i * (cells + 1) + j, b = a + cells + 1;
-      triangles.row(triangle++) << a, b, b + 1;
-      triangles.row(triangle++) << a, b + 1, a + 1;
-    }
+  feeler::Points<double> vertices;
+  feeler::Triangles triangles;
+  feeler::scenes::mesh_height_field({0, 1, 0, 1, cells, cells}, [](double, double) { return 0.0; }, vertices, triangles);
+  for (auto vertex : vertices.rowwise()) {
+    const bool is_rim = vertex.head<2>().minCoeff() == 0.0 || vertex.head<2>().maxCoeff() == 1.0;
+    const double jitter = is_rim ? 0.0 : 0.2 / cells;
+    const Eigen::Vector3d shake = random_vector(bits).cwiseProduct(Eigen::Vector3d(jitter, jitter, height));
+    vertex = (axes * (vertex.transpose() + shake)).transpose().eval();
   }
   return {vertices, triangles};
 }

@@ -60,6 +60,7 @@ class ContactPatch {
         world_from_tool_(world_from_tool),
         reference_(reference),
         band_(band),
+        seam_(band / 100000),
         assumes_valleys_(assumes_valleys) {}
 
   /// Rows of a triangle with the closest points given; false when it had none but a ghost and that was left out.
@@ -69,15 +70,16 @@ class ContactPatch {
     triangle_ = triangle;
     corners_ = corners;
     normal_ = closest.normal;
-    gather_near_vertices(closest);
+    near_.clear();
     measure_triangle();
     // Beyond the band one row is enough: a step that comes near is linearised again.
     if (closest.distance <= band_) {
+      gather_near_vertices(closest);
       add_vertices_on_face(rows);
       if (near_.size() > 1) add_edges(rows);
       if (near_.size() > 2) add_corners_on_faces(rows);
     }
-    const Scalar close_enough = closest.distance + std::abs(closest.distance) / 1000 + seam() + rounding_of(closest.distance);
+    const Scalar close_enough = closest.distance + std::abs(closest.distance) / 1000 + seam_ + rounding_of(closest.distance);
     const bool is_met = std::any_of(rows.begin(), rows.end(), [&](const Row& row) { return row.gap <= close_enough; });
     // Overlapping shapes have no closest points: the deepest vertex may lie beside the triangle, where nothing holds it.
     if (is_met || (closest.is_touching && !rows.empty())) return true;
@@ -102,9 +104,6 @@ class ContactPatch {
 
   static std::size_t index(int i) noexcept { return std::size_t(i); }
 
-  /// A point so little beside a face counts as over it, or rounding would let it through between two faces [m].
-  Scalar seam() const noexcept { return band_ / 100000; }
-
   /// What a distance may fall short of the truth by [m]: the direction between points so near is rounded, which shows at the ends of a long triangle.
   Scalar rounding_of(Scalar distance) const noexcept {
     const Scalar squared_size = std::max((corners_.col(1) - corners_.col(0)).squaredNorm(), (corners_.col(2) - corners_.col(0)).squaredNorm());
@@ -115,7 +114,6 @@ class ContactPatch {
   void gather_near_vertices(const ClosestPoints<Scalar>& closest) noexcept {
     const int lowest = closest.features.size > 0 ? closest.features.tool_vertices[0] : tool_.support(Vector(-normal_));
     const Scalar limit = normal_.dot(tool_.vertex(lowest)) + band_;
-    near_.clear();
     is_near_.reset();
     const auto reach = [this](int vertex) {
       if (near_.push_back(vertex)) is_near_.set(index(vertex));
@@ -154,7 +152,7 @@ class ContactPatch {
     const Vector point_world = world_from_tool_ * (point - corners_.col(0)) + origin;
     int triangle = triangle_;
     for (int step = 0; step < longest_walk; ++step) {
-      const int edge = edge_towards(mesh_, triangle, point_world, seam());
+      const int edge = edge_towards(mesh_, triangle, point_world, seam_);
       if (edge < 0) return true;
       if (mesh_.topology().edge_convexity(triangle, edge) != Convexity::flat) return false;
       triangle = mesh_.topology().neighbour(triangle, edge);
@@ -170,8 +168,8 @@ class ContactPatch {
       const Scalar gap = on_surface(normal.dot(vertex - corners_.col(0)));
       if (std::abs(gap) > 2 * band_) continue;
       Scalar room = std::numeric_limits<Scalar>::infinity();
-      for (int k = 0; k < 3; ++k) room = std::min(room, inward(corners_.col(k), corners_.col((k + 1) % 3), vertex, face_normal_));
-      if (room >= -seam()) rows.push_back(row_of(FeaturePair::vertex_face, normal, vertex, gap, room));
+      for (int k = 0; k < 3; ++k) room = std::min(room, distance_inside<Scalar>(corners_.col(k), corners_.col((k + 1) % 3), vertex, face_normal_));
+      if (room >= -seam_) rows.push_back(row_of(FeaturePair::vertex_face, normal, vertex, gap, room));
     }
   }
 
@@ -230,9 +228,9 @@ class ContactPatch {
       if (std::abs(gap) > 2 * band_) continue;
       Scalar room = std::numeric_limits<Scalar>::infinity();
       for (std::size_t i = 0; i < loop.size(); ++i) {
-        room = std::min(room, inward(tool_.vertex(loop[i]), tool_.vertex(loop[(i + 1) % loop.size()]), corner, outward));
+        room = std::min(room, distance_inside<Scalar>(tool_.vertex(loop[i]), tool_.vertex(loop[(i + 1) % loop.size()]), corner, outward));
       }
-      if (!(room >= -seam()) || !is_clear_of_neighbours_at_corner(k, Vector(-outward))) continue;
+      if (!(room >= -seam_) || !is_clear_of_neighbours_at_corner(k, Vector(-outward))) continue;
       rows.push_back(row_of(FeaturePair::face_vertex, Vector(-outward), corner, gap, room));
     }
   }
@@ -307,7 +305,7 @@ class ContactPatch {
       const Vector between = on_tool - start - along * object;
       const Scalar height = normal_.dot(between);
       // Far apart across the normal they only look parallel: no contact there.
-      if (std::abs(on_surface(height)) > 2 * band_ || (between - height * normal_).norm() > std::abs(height) + seam()) continue;
+      if (std::abs(on_surface(height)) > 2 * band_ || (between - height * normal_).norm() > std::abs(height) + seam_) continue;
       if constexpr (SweptTool<Tool>) {
         const Scalar distance = between.norm();
         Row row = row_of(FeaturePair::vertex_face, Vector(between / distance), on_tool, on_surface(distance));
@@ -320,17 +318,11 @@ class ContactPatch {
     }
   }
 
-  /// Signed distance of a point from a line on the inner side of a loop around `normal`.
-  static Scalar inward(const Vector& start, const Vector& end, const Vector& point, const Vector& normal) noexcept {
-    const Vector edge = end - start;
-    return edge.cross(Vector(point - start)).dot(normal) / edge.norm();
-  }
-
   /// A row whose features meet anywhere within `room` of the point. About a corner the normal turns within the gap: there is no room.
   Row row_of(FeaturePair kind, const Vector& normal, const Vector& point, Scalar gap, Scalar room = Scalar(0)) const noexcept {
     Row row;
     row.kind = kind;
-    row.room = std::max({room, gap / 20, seam()});
+    row.room = std::max({room, gap / 20, seam_});
     row.normal = world_from_tool_ * normal;
     row.arm = world_from_tool_ * (point - reference_);
     row.gap = gap;
@@ -433,6 +425,7 @@ class ContactPatch {
   Matrix3<Scalar> world_from_tool_;
   Vector reference_;
   Scalar band_;
+  Scalar seam_;  // a point so little beside a face counts as over it, or rounding would let it through between two faces [m]
   bool assumes_valleys_;
 
   int triangle_ = -1;

@@ -49,8 +49,8 @@ class WorkingSet {
     return -1;
   }
 
-  /// Adds a pair, in place of the longest idle one when full.
-  void add(int piece, int triangle, const Matrix3<Scalar>& corners_world) noexcept {
+  /// Adds a pair, in place of the longest idle one when full, and returns it.
+  Pair& add(int piece, int triangle, const Matrix3<Scalar>& corners_world) noexcept {
     if (pairs_.full()) {
       int idlest = 0;
       for (int i = 1; i < pairs_.size(); ++i) {
@@ -63,6 +63,7 @@ class WorkingSet {
     pair.triangle = triangle;
     pair.corners_world = corners_world;
     pairs_.push_back(pair);
+    return pairs_[pairs_.size() - 1];
   }
 
   /// The tool has moved, no point of it by more than a length.

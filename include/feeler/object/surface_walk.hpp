@@ -6,6 +6,13 @@
 
 namespace feeler {
 
+/// Signed distance of a point from a line, positive on the inner side of a loop around `normal` [m].
+template <class Scalar>
+Scalar distance_inside(const Vector3<Scalar>& start, const Vector3<Scalar>& end, const Vector3<Scalar>& point, const Vector3<Scalar>& normal) noexcept {
+  const Vector3<Scalar> edge = end - start;
+  return edge.cross(Vector3<Scalar>(point - start)).dot(normal) / edge.norm();
+}
+
 /// The edge of a triangle that a point lies farthest beyond, seen along the triangle's normal, or -1 if it lies over the triangle.
 ///
 /// @param point  [m]
@@ -17,10 +24,9 @@ int edge_towards(const TriangleMesh<MeshScalar>& mesh, int triangle, const Vecto
   int edge = -1;
   Scalar farthest = -seam;
   for (int k = 0; k < 3; ++k) {
-    const Vector3<Scalar> along = corners.col((k + 1) % 3) - corners.col(k);
-    const Scalar inward = along.cross(Vector3<Scalar>(point - corners.col(k))).dot(normal) / along.norm();
-    if (!(inward < farthest)) continue;
-    farthest = inward;
+    const Scalar inside = distance_inside<Scalar>(corners.col(k), corners.col((k + 1) % 3), point, normal);
+    if (!(inside < farthest)) continue;
+    farthest = inside;
     edge = k;
   }
   return edge;

@@ -78,11 +78,13 @@ class Sweep {
     SweepResult<Scalar> result;
     result.time = until;
     start_ = moving.frame_at(Scalar(0));
-    set_end(moving, until, mesh);
+    to_boxes_ = moving.origin() - mesh.bvh().origin().template cast<Scalar>();
+    extent_ = Scalar(mesh.bounds().diagonal().norm());
+    set_end(moving, until);
     planes_.age();
     for (const KnownTriangle<Scalar>& pair : known) {
       if (passes(pair.state.corners)) continue;
-      examine(pair.triangle, pair.state, from_known_, moving, mesh, result, work);
+      examine(pair.triangle, pair.state, from_known_, moving, result, work);
       if (work > limit) return give_up(result);
     }
 
@@ -112,7 +114,7 @@ class Sweep {
         const Matrix3<Scalar> corners =
             mesh.corners(triangle).template cast<Scalar>().colwise() - moving.origin();
         if (passes(corners) || is_among(triangle, known)) continue;
-        examine(triangle, {corners, Vector::Zero(), {}, false}, clearance_, moving, mesh, result, work);
+        examine(triangle, {corners, Vector::Zero(), {}, false}, clearance_, moving, result, work);
       }
     }
     return result;
@@ -150,12 +152,11 @@ class Sweep {
     return std::any_of(known.begin(), known.end(), [triangle](const auto& k) { return k.triangle == triangle; });
   }
 
-  template <class MeshScalar>
   void examine(int triangle, const PassedTriangle<Scalar>& state, const Clearance<Scalar>& clearance, const MovingTool<Tool>& moving,
-               const TriangleMesh<MeshScalar>& mesh, SweepResult<Scalar>& result, int& work) noexcept {
+               SweepResult<Scalar>& result, int& work) noexcept {
     const Passage<Scalar> passage = pass(moving, state, start_, end_, clearance, work);
     if (!passage.is_blocked) {
-      if (passage.normal.squaredNorm() > Scalar(0) && !state.is_exact) add_plane(passage.normal, moving, mesh);
+      if (passage.normal.squaredNorm() > Scalar(0) && !state.is_exact) add_plane(passage.normal, moving);
       return;
     }
     if (result.blockers.full()) {
@@ -167,44 +168,36 @@ class Sweep {
     }
     if (passage.time < result.time) result.time = passage.time;
     const Scalar enough = worth_certifying(result.time, clearance_, moving);
-    if (2 * enough <= end_.time) set_end(moving, enough, mesh);
+    if (2 * enough <= end_.time) set_end(moving, enough);
   }
 
   /// From here on only [0, time] is certified.
-  template <class MeshScalar>
-  void set_end(const MovingTool<Tool>& moving, Scalar time, const TriangleMesh<MeshScalar>& mesh) noexcept {
+  void set_end(const MovingTool<Tool>& moving, Scalar time) noexcept {
     end_ = moving.frame_at(time);
     planes_.prepare(moving, start_, end_, clearance_.kept);
-    const Vector to_boxes = moving.origin() - mesh.bvh().origin().template cast<Scalar>();
     for (int k = 0; k < 3; ++k) {
       const Vector axis = Vector::Unit(k);
-      const Scalar below = PlaneCache<Scalar>::limit_of(axis, moving, start_, end_, clearance_.kept) + to_boxes[k];
-      const Scalar above = PlaneCache<Scalar>::limit_of(Vector(-axis), moving, start_, end_, clearance_.kept) - to_boxes[k];
+      const Scalar below = PlaneCache<Scalar>::limit_of(axis, moving, start_, end_, clearance_.kept) + to_boxes_[k];
+      const Scalar above = PlaneCache<Scalar>::limit_of(Vector(-axis), moving, start_, end_, clearance_.kept) - to_boxes_[k];
       lower_[std::size_t(k)] = round_down(below, below);
       upper_[std::size_t(k)] = -round_down(above, above);
     }
-    for (int i = 0; i < planes_.size(); ++i) set_box_plane(i, moving, mesh);
+    for (int i = 0; i < planes_.size(); ++i) set_box_plane(i);
   }
 
-  template <class MeshScalar>
-  void add_plane(const Vector& normal, const MovingTool<Tool>& moving,
-                 const TriangleMesh<MeshScalar>& mesh) noexcept {
-    set_box_plane(planes_.add(normal, moving, start_, end_, clearance_.kept), moving, mesh);
+  void add_plane(const Vector& normal, const MovingTool<Tool>& moving) noexcept {
+    set_box_plane(planes_.add(normal, moving, start_, end_, clearance_.kept));
   }
 
   /// Boxes are float and relative to the hierarchy's origin; a plane for them gives away what rounding could gain.
-  template <class MeshScalar>
-  void set_box_plane(int i, const MovingTool<Tool>& moving, const TriangleMesh<MeshScalar>& mesh) noexcept {
+  void set_box_plane(int i) noexcept {
     const Vector& normal = planes_.normal(i);
-    const Vector to_boxes = moving.origin() - mesh.bvh().origin().template cast<Scalar>();
-    const auto bounds = mesh.bounds();
-    const Scalar extent = Scalar(bounds.diagonal().norm());
     BoxPlanes& planes = box_planes_[std::size_t(i / lanes)];
     for (int k = 0; k < 3; ++k) {
       planes.normal[std::size_t(k)][i % lanes] = float(normal[k]);
       planes.size[std::size_t(k)][i % lanes] = std::abs(float(normal[k]));
     }
-    planes.limit[i % lanes] = round_down(planes_.limit(i) + normal.dot(to_boxes), extent);
+    planes.limit[i % lanes] = round_down(planes_.limit(i) + normal.dot(to_boxes_), extent_);
   }
 
   static float round_down(Scalar value, Scalar extent) noexcept {
@@ -250,6 +243,8 @@ class Sweep {
   PlaneCache<Scalar>& planes_;
   Clearance<Scalar> from_known_;
   Clearance<Scalar> clearance_;  // from all others
+  Vector to_boxes_;       // to the origin of the motion from that of the boxes [m]
+  Scalar extent_ = Scalar(0);  // of the mesh [m]
   Frame start_;
   Frame end_;
   std::array<float, 3> lower_{}, upper_{};

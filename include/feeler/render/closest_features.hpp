@@ -3,8 +3,6 @@
 
 #include <algorithm>
 #include <array>
-#include <limits>
-#include <span>
 
 #include "feeler/contact/contact_patch.hpp"
 #include "feeler/contact/working_set.hpp"
@@ -15,6 +13,7 @@
 #include "feeler/render/kept_contacts.hpp"
 #include "feeler/render/motion_certificate.hpp"
 #include "feeler/render/rendered_scene.hpp"
+#include "feeler/render/step_limits.hpp"
 #include "feeler/render/step_problem.hpp"
 #include "feeler/render/tick.hpp"
 
@@ -43,7 +42,7 @@ class ClosestFeaturesFollower {
     certificate_.clear();
     goes_on_ = false;
     patience_ = 0;
-    reset_limits(scene);
+    limits_.reset(scene.trust_radius());
   }
 
   Status follow(const Scene& scene, const Pose<Scalar>& target, Tick<MeshScalar>& tick) noexcept {
@@ -51,7 +50,7 @@ class ClosestFeaturesFollower {
     turn_idly(scene, tick);
     const int idle_legs = tick.path.size();
     working_set_.age(longest_idle, 4 * scene.margin(), 4 * scene.trust_radius(), goes_on_);
-    if (!goes_on_) reset_limits(scene);
+    if (!goes_on_) limits_.reset(scene.trust_radius());
     goes_on_ = !advance(scene, tick);
     adapt_budget(scene, tick, tick.path.size() > idle_legs);
     turn_idly(scene, tick);
@@ -91,6 +90,7 @@ class ClosestFeaturesFollower {
   using Row = ContactRowOf<Piece>;
 
   static constexpr int longest_idle = 8;
+  static constexpr int maximum_rounds = 4;  // linearisations for one motion
 
   /// A step proposed to the certificate.
   struct Proposal {
@@ -113,7 +113,13 @@ class ClosestFeaturesFollower {
   }
 
   /// What is farther away cannot stop the next step [m].
-  Scalar reach_of_step(const Scene& scene) const noexcept { return trust_ + scene.margin(); }
+  Scalar reach_of_step(const Scene& scene) const noexcept { return limits_.trust() + scene.margin(); }
+
+  /// Whether the last linearisation found nothing near.
+  bool is_in_flight() const noexcept { return problem_.row_count() == 0 && !leaves_out_pairs_; }
+
+  /// A step that is short whatever the one before it was [m].
+  static Scalar very_short(const Scene& scene) noexcept { return Scalar(scene.settings().step_tolerance) / 50; }
 
   /// Turns that do not matter follow the device at once.
   void turn_idly(const Scene& scene, Tick<MeshScalar>& tick) noexcept {
@@ -125,31 +131,9 @@ class ClosestFeaturesFollower {
     }
   }
 
-  void reset_limits(const Scene& scene) noexcept {
-    trust_ = scene.trust_radius();
-    flight_ = std::numeric_limits<Scalar>::infinity();
-    unhindered_ = 0;
-  }
-
-  /// Longest motion to propose from the rows of the last linearisation [m].
-  Scalar& limit() noexcept { return problem_.row_count() > 0 || leaves_out_pairs_ ? trust_ : flight_; }
-
-  /// After a motion that nothing stopped. Long slides pass wide faces: after some such motions the trust region outgrows its radius.
-  void widen(const Scene& scene) noexcept {
-    const Scalar radius = scene.trust_radius();
-    const bool is_long_slide = trust_ >= radius && ++unhindered_ > 3;
-    trust_ = std::min(2 * trust_, is_long_slide ? 8 * radius : std::max(trust_, radius));
-    flight_ *= 2;
-  }
-  void narrow(Scalar length) noexcept {
-    trust_ = length;
-    unhindered_ = 0;
-  }
-
   /// True when it arrived at a local minimum.
   bool advance(const Scene& scene, Tick<MeshScalar>& tick) noexcept {
-    const Scalar tolerance = Scalar(scene.settings().step_tolerance);
-    const Scalar resting = tolerance / 500000;
+    const Scalar resting = Scalar(scene.settings().step_tolerance) / 500000;
     const int maximum_iterations =
         std::min(scene.settings().maximum_iterations, Tick<MeshScalar>::path_capacity - IdleTurns<typename Scene::Tool>::legs);
     const auto& turns = scene.idle_turns();
@@ -157,9 +141,9 @@ class ClosestFeaturesFollower {
     tick.iterations = 0;
     do {
       ++tick.iterations;
-      const Proposal proposal = propose(scene, came_to_nothing ? 1 : 4, tick);
+      const Proposal proposal = propose(scene, came_to_nothing ? 1 : maximum_rounds, tick);
       const Scalar length = scene.length_of(proposal.motion, pose_);
-      if (!proposal.is_settled && !came_to_nothing && length < tolerance / 50) {
+      if (!proposal.is_settled && !came_to_nothing && length < very_short(scene)) {
         // One linearisation takes back what another asks for, as a triangle is missing from both: the first alone will meet it.
         came_to_nothing = true;
         continue;
@@ -168,13 +152,13 @@ class ClosestFeaturesFollower {
       const bool is_nearer = descends(scene, turns.moved(pose_, proposal.motion), proposal.restoration, came_to_nothing);
       came_to_nothing = false;
       if (!is_nearer) {
-        narrow(std::min(trust_, length) / 4);
+        limits_.narrow(std::min(limits_.trust(), length) / 4);
         continue;
       }
       const auto result = certify(scene, proposal.motion, tick);
       if (result.is_exhausted) {
         // What was found to block is real, and saves work next time.
-        if (!admit(scene, result)) limit() = length / 8;
+        if (!admit(scene, result)) limits_.shorten(is_in_flight(), length / 8);
       } else {
         const bool is_done = result.blockers.empty() && proposal.is_settled && !proposal.is_capped;
         pose_ = is_done && proposal.is_free ? target_ : turns.moved(pose_, proposal.motion * result.time);
@@ -184,17 +168,15 @@ class ClosestFeaturesFollower {
         }
         if (is_done) return true;
         if (result.blockers.empty()) {
-          widen(scene);
+          limits_.widen();
         } else if (admit(scene, result)) {
-          narrow(std::min(trust_, scene.trust_radius()));
+          limits_.narrow_to_radius();
         } else {
-          narrow(length * std::max(result.time, Scalar(1) / 4));
+          limits_.narrow(length * std::max(result.time, Scalar(1) / 4));
         }
       }
-    } while (tick.iterations < maximum_iterations && tick.work < work_budget(scene) && !(trust_ < resting));
-    const Scalar least = scene.trust_radius() / 4000;
-    trust_ = std::clamp(trust_, least, scene.trust_radius());
-    flight_ = std::max(flight_, least);
+    } while (tick.iterations < maximum_iterations && tick.work < work_budget(scene) && !(limits_.trust() < resting));
+    limits_.carry_over();
     return false;
   }
 
@@ -208,13 +190,13 @@ class ClosestFeaturesFollower {
   }
 
   /// Solves for the motion from the certified pose, linearising again where the first step ends.
-  Proposal propose(const Scene& scene, int maximum_rounds, Tick<MeshScalar>& tick) noexcept {
+  Proposal propose(const Scene& scene, int rounds, Tick<MeshScalar>& tick) noexcept {
     const auto& turns = scene.idle_turns();
     Proposal proposal;
     Pose<Scalar> pose = pose_;
     bool rests_on_assumption = false;
     Scalar previous(0);
-    for (int round = 0; round < maximum_rounds; ++round) {
+    for (int round = 0; round < rounds; ++round) {
       linearise(scene, pose, round == 0, !rests_on_assumption, tick);
       solve(scene, pose, proposal.is_capped);
       if (round == 0) proposal.restoration = problem_.cost_of_restoration();
@@ -227,17 +209,17 @@ class ClosestFeaturesFollower {
       const Scalar last = scene.length_of(Twist<Scalar>::from_vector(step), pose);
       if (!proposal.is_capped) proposal.is_free = problem_.is_free();
       const Scalar length = scene.length_of(proposal.motion, pose_);
-      if (length > limit() && !proposal.is_capped) {
+      const Scalar longest = limits_.longest(is_in_flight());
+      if (length > longest && !proposal.is_capped) {
         proposal.is_capped = true;
-        proposal.motion = proposal.motion * (limit() / length);
+        proposal.motion = proposal.motion * (longest / length);
         pose = turns.moved(pose_, proposal.motion);
         if (proposal.is_free) return proposal;
         continue;
       }
       rests_on_assumption = problem_.rests_on_assumption();
       // A short step is the last one where steps shrink fast, or where it is very short.
-      const Scalar tolerance = Scalar(scene.settings().step_tolerance);
-      const bool is_short = last < tolerance && (last < previous / 10 || last < tolerance / 50);
+      const bool is_short = last < Scalar(scene.settings().step_tolerance) && (last < previous / 10 || last < very_short(scene));
       previous = last;
       const bool rests_on_kept = problem_.rests_on_kept();
       proposal.is_settled =
@@ -376,8 +358,7 @@ class ClosestFeaturesFollower {
   }
 
   Pair& take_in(const Scene& scene, int piece, int triangle) noexcept {
-    working_set_.add(piece, triangle, scene.object().corners(triangle).template cast<Scalar>());
-    return working_set_[working_set_.size() - 1];
+    return working_set_.add(piece, triangle, scene.object().corners(triangle).template cast<Scalar>());
   }
 
   /// Takes what blocked into the working set; false when all of it was there already with rows of its own.
@@ -404,10 +385,8 @@ class ClosestFeaturesFollower {
   Pose<Scalar> target_;   // the haptic pose
   bool goes_on_ = false;  // the last tick left motion for this one
   int patience_ = 0;      // doublings of the work budget
-  int unhindered_ = 0;    // motions of the trust radius and more in a row that nothing stopped
   bool leaves_out_pairs_ = false;  // the last linearisation had pairs beyond its reach
-  Scalar trust_ = 0;      // longest motion proposed near the object
-  Scalar flight_ = 0;     // the same away from it, where only the work of the certificate limits it
+  StepLimits<Scalar> limits_;
   Pairs working_set_;
   MotionCertificate<ToolType> certificate_;
   StepProblem<Solver, row_capacity, Row> problem_;

@@ -1,0 +1,59 @@
+// How long a motion may be proposed: the trust region near the object, and a limit of its own away from it.
+#pragma once
+
+#include <algorithm>
+#include <limits>
+
+#include "feeler/core/scalar.hpp"
+
+namespace feeler {
+
+/// Lengths up to which a linearisation, or the certificate's work, is trusted. They learn from what became of the motions.
+template <class ScalarType>
+class StepLimits {
+ public:
+  using Scalar = ScalarType;
+
+  /// As before the first motion.
+  /// @param radius  of the trust region [m]
+  void reset(Scalar radius) noexcept {
+    radius_ = trust_ = radius;
+    flight_ = std::numeric_limits<Scalar>::infinity();
+    unhindered_ = 0;
+  }
+  /// For the next tick, which goes on with the motion that this one left.
+  void carry_over() noexcept {
+    const Scalar least = radius_ / 4000;
+    trust_ = std::clamp(trust_, least, radius_);
+    flight_ = std::max(flight_, least);
+  }
+
+  /// Longest motion near the object [m].
+  Scalar trust() const noexcept { return trust_; }
+  /// Longest motion [m]; in flight nothing is near, and only the work of the certificate limits it.
+  Scalar longest(bool is_in_flight) const noexcept { return is_in_flight ? flight_ : trust_; }
+
+  /// After a motion that nothing stopped. Long slides pass wide faces: after some such motions the trust region outgrows its radius.
+  void widen() noexcept {
+    const bool is_long_slide = trust_ >= radius_ && ++unhindered_ > 3;
+    trust_ = std::min(2 * trust_, is_long_slide ? 8 * radius_ : std::max(trust_, radius_));
+    flight_ *= 2;
+  }
+  /// After one that was too long.
+  void narrow(Scalar length) noexcept {
+    trust_ = length;
+    unhindered_ = 0;
+  }
+  /// After one that met something new: what is known of it holds within the radius.
+  void narrow_to_radius() noexcept { narrow(std::min(trust_, radius_)); }
+  /// After one that took more work to certify than there was.
+  void shorten(bool is_in_flight, Scalar length) noexcept { (is_in_flight ? flight_ : trust_) = length; }
+
+ private:
+  Scalar radius_ = Scalar(0);
+  Scalar trust_ = Scalar(0);
+  Scalar flight_ = Scalar(0);
+  int unhindered_ = 0;  // motions of the radius and more in a row that nothing stopped
+};
+
+}  // namespace feeler
