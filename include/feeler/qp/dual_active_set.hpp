@@ -342,8 +342,10 @@ class DualActiveSet {
     const Scalar allowed_rest =
         std::max(Scalar(1e-12), Scalar(64 * std::numeric_limits<Scalar>::epsilon())) * size_of(a);
     const bool is_sum = !(size_of(rest) > allowed_rest);
+    // A step some times as long as this one could use the rest.
+    const Scalar within_reach = 16 * size_of(rest) * largest_of(x_);
     const bool is_certain =
-        is_careful_ ? violation > size_of(rest) * largest_of(x_) : is_sum && violation > slack;
+        is_careful_ ? violation > within_reach : is_sum && violation > slack + within_reach;
     if (!is_certain) return Entry::in_doubt;
     solution.conflict.push_back(p);
     for (int i = 0; i < operators_.used(); ++i) {
