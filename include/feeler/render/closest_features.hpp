@@ -203,18 +203,21 @@ class ClosestFeaturesFollower {
       if (round > 0) keep_contacts(scene, pose, proposal.is_capped);
       note_tight_pairs();
       learn_passed(scene, pose, tick);
-      const Vector6<Scalar>& step = problem_.solution().step;
-      pose = turns.moved(pose, Twist<Scalar>::from_vector(step));
+      auto step = Twist<Scalar>::from_vector(problem_.solution().step);
+      const Scalar last = scene.length_of(step, pose);
+      const Scalar longest = limits_.longest(is_in_flight());
+      // Where the optimum is flat a step may be of more than a turn, of which a pose would not know the direction.
+      if (!proposal.is_capped && last > 2 * longest) step = step * (2 * longest / last);
+      const Pose<Scalar> linearised = pose;
+      pose = turns.moved(pose, step);
       proposal.motion = turns.motion_between(pose_, pose);
-      const Scalar last = scene.length_of(Twist<Scalar>::from_vector(step), pose);
       if (!proposal.is_capped) proposal.is_free = problem_.is_free();
       const Scalar length = scene.length_of(proposal.motion, pose_);
-      const Scalar longest = limits_.longest(is_in_flight());
       if (length > longest && !proposal.is_capped) {
         proposal.is_capped = true;
         proposal.motion = proposal.motion * (longest / length);
         pose = turns.moved(pose_, proposal.motion);
-        if (proposal.is_free) return proposal;
+        if (proposal.is_free || stays_clear(scene, turns.motion_between(linearised, pose))) return proposal;
         continue;
       }
       rests_on_assumption = problem_.rests_on_assumption();
@@ -227,6 +230,14 @@ class ClosestFeaturesFollower {
       if (proposal.is_settled || proposal.is_capped || (is_short && rests_on_kept)) return proposal;
     }
     return proposal;
+  }
+
+  /// Whether a motion from where it linearised leaves every row half of the margin, as far as the same features meet.
+  bool stays_clear(const Scene& scene, const Twist<Scalar>& motion) const noexcept {
+    for (int k = 0; k < problem_.row_count(); ++k) {
+      if (!(problem_.row(k).carried(motion).gap >= scene.margin() / 2)) return false;
+    }
+    return true;
   }
 
   void solve(const Scene& scene, const Pose<Scalar>& pose, bool is_capped) noexcept {

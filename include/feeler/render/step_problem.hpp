@@ -170,18 +170,21 @@ class StepProblem {
     const Matrix6<Scalar> lagrangian = metric.hessian(e) - curvature;
     const Vector6<Scalar> gradient = problem_.gradient;
     // Not flatter than a twentieth of the metric: a flatter one makes steps that no linearisation can carry.
-    for (const Scalar weight : {Scalar(0), Scalar(8), Scalar(64)}) {
-      problem_.hessian = lagrangian + weight * across;
+    for (const auto& [weight, share] : regularisations) {
+      problem_.hessian = share * lagrangian + (Scalar(1) - share) * base + weight * across;
       if (!is_positive_definite(problem_.hessian - base / 20)) continue;
       problem_.gradient = gradient - weight * pull;
       return;
     }
-    for (const Scalar share : {Scalar(1) / 2, Scalar(1) / 4}) {
-      problem_.hessian = share * lagrangian + (Scalar(1) - share) * base;
-      if (is_positive_definite(problem_.hessian - base / 20)) return;
-    }
     problem_.hessian = base;
   }
+
+  /// Stiffness across the active rows, and share of the Lagrangian in what is left to the metric; the first that will do is taken.
+  struct Regularisation {
+    Scalar weight, share;
+  };
+  static constexpr std::array<Regularisation, 7> regularisations{
+      {{0, 1}, {8, 1}, {64, 1}, {64, Scalar(15) / 16}, {64, Scalar(3) / 4}, {64, Scalar(1) / 2}, {64, Scalar(1) / 4}}};
 
   static bool is_positive_definite(const Matrix6<Scalar>& matrix) noexcept {
     const Eigen::LLT<Matrix6<Scalar>> factor(matrix);
