@@ -35,10 +35,12 @@ struct ContactRow {
   Scalar gap = Scalar(0);
   Scalar room = Scalar(0);  ///< how far the contact may slide before other features meet [m]
 
-  /// Whether the same features still meet after a step.
+  /// Whether the same features surely meet after a step: it slides no farther than a quarter of the room.
+  ///
+  /// At the end of the room other features take over, and what rests on both may rest on neither.
   bool outlasts(const Vector6<Scalar>& step) const noexcept {
     const Vector3<Scalar> motion = step.template head<3>() + Vector3<Scalar>(step.template tail<3>()).cross(arm);
-    return (motion - normal.dot(motion) * normal).squaredNorm() <= room * room;
+    return 16 * (motion - normal.dot(motion) * normal).squaredNorm() <= room * room;
   }
 
   /// The row where a motion ends, exactly, if the same features still meet there.
