@@ -60,7 +60,8 @@ class SupportBlocks {
 
  private:
   static std::size_t offset(int i, int k) noexcept {
-    return std::size_t(((i / block_size) * 3 + k) * block_size + i % block_size);
+    const auto index = unsigned(i);  // divides by a shift
+    return (index / block_size * 3 + unsigned(k)) * block_size + index % block_size;
   }
 
   int count_ = 0;
