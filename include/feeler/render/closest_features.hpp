@@ -221,8 +221,9 @@ class ClosestFeaturesFollower {
         continue;
       }
       rests_on_assumption = problem_.rests_on_assumption();
-      // A short step is the last one where steps shrink fast, or where it is very short.
-      const bool is_short = last < Scalar(scene.settings().step_tolerance) && (last < previous / 10 || last < very_short(scene));
+      // A short step is the last one where steps shrink fast, and go on to, or where it is very short.
+      const bool shrinks_fast = problem_.is_newton() && last < previous / 10;
+      const bool is_short = last < Scalar(scene.settings().step_tolerance) && (shrinks_fast || last < very_short(scene));
       previous = last;
       const bool rests_on_kept = problem_.rests_on_kept();
       proposal.is_settled =

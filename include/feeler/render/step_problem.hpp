@@ -87,6 +87,7 @@ class StepProblem {
     problem_.gradient = metric.gradient(graphic_from_haptic);
     solve_relaxing(margin);
     is_free_ = solution_.active.empty();
+    is_newton_ = true;
     if (is_free_) return solution_.step;
     projection_ = solution_;
     set_lagrangian_hessian(metric, graphic_from_haptic);
@@ -97,6 +98,8 @@ class StepProblem {
   }
   /// Whether no contact holds the tool: the last `solve` was not stopped by any row.
   bool is_free() const noexcept { return is_free_; }
+  /// Whether the last `solve` had the Hessian of the Lagrangian whole: else steps shrink by a ratio only, and a short one is not the last.
+  bool is_newton() const noexcept { return is_newton_; }
 
   /// The smallest step that meets the rows.
   const Vector6<Scalar>& restore(const Metric<Scalar>& metric, Scalar margin) noexcept {
@@ -174,9 +177,11 @@ class StepProblem {
       problem_.hessian = share * lagrangian + (Scalar(1) - share) * base + weight * across;
       if (!is_positive_definite(problem_.hessian - base / 20)) continue;
       problem_.gradient = gradient - weight * pull;
+      is_newton_ = share == Scalar(1);
       return;
     }
     problem_.hessian = base;
+    is_newton_ = false;
   }
 
   /// Stiffness across the active rows, and share of the Lagrangian in what is left to the metric; the first that will do is taken.
@@ -196,6 +201,7 @@ class StepProblem {
   QpSolution<Scalar> solution_;
   QpSolution<Scalar> projection_;
   bool is_free_ = true;
+  bool is_newton_ = true;
   FixedVector<Row, row_capacity> rows_;
   int kept_ = 0;  // of them, at the end
   std::array<Scalar, std::size_t(row_capacity)> certified_gaps_;
