@@ -217,7 +217,7 @@ class ClosestFeaturesFollower {
         proposal.is_capped = true;
         proposal.motion = proposal.motion * (longest / length);
         pose = turns.moved(pose_, proposal.motion);
-        if (proposal.is_free || stays_clear(scene, turns.motion_between(linearised, pose))) return proposal;
+        if (proposal.is_free || problem_.leaves_gaps(turns.motion_between(linearised, pose), scene.margin() / 2)) return proposal;
         continue;
       }
       rests_on_assumption = problem_.rests_on_assumption();
@@ -231,14 +231,6 @@ class ClosestFeaturesFollower {
       if (proposal.is_settled || proposal.is_capped || (is_short && rests_on_kept)) return proposal;
     }
     return proposal;
-  }
-
-  /// Whether a motion from where it linearised leaves every row half of the margin, as far as the same features meet.
-  bool stays_clear(const Scene& scene, const Twist<Scalar>& motion) const noexcept {
-    for (int k = 0; k < problem_.row_count(); ++k) {
-      if (!(problem_.row(k).carried(motion).gap >= scene.margin() / 2)) return false;
-    }
-    return true;
   }
 
   void solve(const Scene& scene, const Pose<Scalar>& pose, bool is_capped) noexcept {

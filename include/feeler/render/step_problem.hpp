@@ -71,6 +71,10 @@ class StepProblem {
     return std::all_of(solution_.active.begin(), solution_.active.end(),
                        [this](const auto& active) { return rows_[active.row].outlasts(solution_.step); });
   }
+  /// Whether a motion from the pose of linearisation leaves every row a gap of at least `least` [m], as far as the same features meet.
+  bool leaves_gaps(const Twist<Scalar>& motion, Scalar least) const noexcept {
+    return std::all_of(rows_.begin(), rows_.end(), [&](const Row& row) { return row.carried(motion).gap >= least; });
+  }
   int row_count() const noexcept { return rows_.size(); }
   const Row& row(int k) const noexcept { return rows_[k]; }
   const QpSolution<Scalar>& solution() const noexcept { return solution_; }
