@@ -92,7 +92,8 @@ Findings run(const Options& options) {
     contest.seconds = options.seconds > 0.0 ? options.seconds : 4.0;
     for (const auto& [name, size, grow] :
          {std::tuple("rivals_triangles", "triangles of the object", &grow_object),
-          std::tuple("rivals_vertices", "vertices of the tool", &grow_tool)}) {
+          std::tuple("rivals_vertices", "vertices of the tool", &grow_tool),
+          std::tuple("rivals_pieces", "pieces of the tool", &cut_tool)}) {
       const auto curve = grow(contest);
       write_scaling(folder, name, curve);
       text += (text.empty() ? "" : "\n") + scaling_in_markdown(size, curve);
@@ -149,7 +150,7 @@ int main(int argc, char** argv) {
       ->check(CLI::Range(1e-3, 1e6));
   app.add_option("--teeth", options.teeth, "mesh file of the lower teeth");
   app.add_option("--out", options.folder, "folder of the CSV files, tables and figures");
-  app.add_flag("--scaling", options.is_scaling, "grow the object and the tool instead");
+  app.add_flag("--scaling", options.is_scaling, "grow the object and the tool, and cut the tool, instead");
   app.add_flag("--no-figures", options.has_no_figures, "write CSV files and tables only");
   return feeler::bench::run_with_options(app, argc, argv, [&] {
     if (const auto packages = missing_packages(); !packages.empty()) {

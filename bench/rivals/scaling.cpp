@@ -1,18 +1,20 @@
-// Terrain and pebbles of growing size.
+// Terrain and pebbles of growing size, and a rod in ever more pieces.
 #include "rivals/scaling.hpp"
 
+#include <cmath>
 #include <cstdio>
 
+#include "feeler/tool/compound_tool.hpp"
 #include "rivals/arena.hpp"
 #include "scenes/terrain.hpp"
 
 namespace feeler::rivals {
 namespace {
 
-std::vector<Score> scores_of(const scenes::Scene& scene, ContestOptions options) {
+template <RigidTool Tool>
+std::vector<Score> scores_of(const scenes::Setting& scene, const Tool& tool, ContestOptions options) {
   options.is_judged = false;
-  Arena arena(scene, std::get<ConvexPolytope<double>>(scene.tool), std::numeric_limits<double>::infinity(),
-              1.0 / options.rate, false);
+  Arena arena(scene, tool, std::numeric_limits<double>::infinity(), 1.0 / options.rate, false);
 #ifdef FEELER_HAS_ODE
   arena.contest().tools.push_back(make_ode_tool(arena.scene(), 4, 1.0 / options.rate));
 #endif
@@ -28,24 +30,53 @@ ConvexPolytope<double> pebble_of(int vertices) {
   return ConvexPolytope<double>::hull_of(points);
 }
 
+/// A rod of 4 × 4 × 60 mm upwards from the origin, cut across.
+CompoundTool<ConvexPolytope<double>> rod_of(int pieces) {
+  std::vector<Points<double>> sets(std::size_t(pieces), Points<double>(8, 3));
+  for (int i = 0; i < pieces; ++i) {
+    for (int k = 0; k < 8; ++k) {
+      sets[std::size_t(i)].row(k) << ((k & 1) != 0 ? 0.002 : -0.002), ((k & 2) != 0 ? 0.002 : -0.002),
+          0.06 * (i + (k >> 2)) / pieces;
+    }
+  }
+  return CompoundTool<ConvexPolytope<double>>::hulls_of(sets);
+}
+
 }  // namespace
 
 std::vector<ScalingPoint> grow_object(const ContestOptions& options) {
   std::vector<ScalingPoint> curve;
   for (const int cells : {22, 39, 71, 122, 224, 387, 707}) {
     std::fprintf(stderr, "terrain of %d triangles\n", 2 * cells * cells);
-    curve.push_back({2 * cells * cells, scores_of(scenes::terrain(cells), options)});
+    const scenes::Scene scene = scenes::terrain(cells);
+    curve.push_back(
+        {2 * cells * cells, scores_of(scene, std::get<ConvexPolytope<double>>(scene.tool), options)});
   }
   return curve;
 }
 
 std::vector<ScalingPoint> grow_tool(const ContestOptions& options) {
   std::vector<ScalingPoint> curve;
-  scenes::Scene scene = scenes::terrain(71);
+  const scenes::Scene scene = scenes::terrain(71);
   for (const int vertices : {4, 8, 16, 32, 64, 128, 256}) {
     std::fprintf(stderr, "tool of %d vertices\n", vertices);
-    scene.tool = pebble_of(vertices);
-    curve.push_back({vertices, scores_of(scene, options)});
+    curve.push_back({vertices, scores_of(scene, pebble_of(vertices), options)});
+  }
+  return curve;
+}
+
+std::vector<ScalingPoint> cut_tool(const ContestOptions& options) {
+  std::vector<ScalingPoint> curve;
+  scenes::Setting scene = scenes::terrain(71);
+  scene.motion = [](double t) {
+    return scenes::pose_of(
+        {0.3 * std::sin(4.5 * t), 0.3 * std::sin(3.9 * t), 0.6 * std::sin(2.0 * t)},
+        {0.045 * std::sin(4.0 * t), 0.04 * std::sin(2.7 * t), 0.02 - 0.022 * scenes::approach(t)});
+  };
+  scene.start = scene.motion(0.0);
+  for (const int pieces : {1, 2, 4, 8, 16, 32, 64}) {
+    std::fprintf(stderr, "tool of %d pieces\n", pieces);
+    curve.push_back({pieces, scores_of(scene, rod_of(pieces), options)});
   }
   return curve;
 }

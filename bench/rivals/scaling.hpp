@@ -7,7 +7,7 @@
 
 namespace feeler::rivals {
 
-/// Scores at one size: triangles of the object, or vertices of the tool.
+/// Scores at one size: triangles of the object, or vertices or pieces of the tool.
 struct ScalingPoint {
   int size = 0;
   std::vector<Score> scores;  ///< Feeler first; times alone
@@ -20,5 +20,9 @@ std::vector<ScalingPoint> grow_object(const ContestOptions& options);
 /// Hulls of 4 to 256 points on terrain of 1e4 triangles; Feeler, and ODE with 4 substeps where it is
 /// installed.
 std::vector<ScalingPoint> grow_tool(const ContestOptions& options);
+
+/// A rod that stands on terrain of 1e4 triangles, cut into 1 to 64 pieces of which the lowest is in contact;
+/// Feeler, and ODE with 4 substeps where it is installed.
+std::vector<ScalingPoint> cut_tool(const ContestOptions& options);
 
 }  // namespace feeler::rivals

@@ -247,6 +247,49 @@ BOOST_AUTO_TEST_CASE(a_known_triangle_is_examined_whether_or_not_the_traversal_w
   BOOST_TEST(result.time * 0.5 >= 1e-3 - 1e-6);
 }
 
+BOOST_AUTO_TEST_CASE(a_tool_that_planes_part_from_everything_collides_nowhere_on_its_way) {
+  std::mt19937 bits(8);
+  const Soup soup(bits, 150, Vector::Zero());
+  const TriangleMesh<double> mesh(soup.vertices, soup.triangles);
+  const CheckedObject object(soup.vertices, soup.triangles);
+  const int unlimited = std::numeric_limits<int>::max();
+  int parted = 0, near = 0, free = 0;
+  for (int i = 0; i < 600; ++i) {
+    const Box box = random_box(bits);
+    RandomMotion<Box> random(bits, box);
+    random.pose.translation = 0.7 * random_vector(bits);
+    random.motion.linear = magnitude(bits, -4, -1) * random_direction(bits);
+    random.motion.angular = magnitude(bits, -4, 0) * random_direction(bits);
+    PlaneCache<double> planes, others;
+    int work = 0;
+    const bool is_parted = Sweep<Box>(planes, {}).parts(mesh, random.moving(), work, unlimited);
+    const auto result = Sweep<Box>(others, {}).certify(mesh, random.moving(), {}, work, unlimited);
+    free += result.blockers.empty();
+    (is_parted ? parted : near)++;
+    if (!is_parted) continue;
+    BOOST_TEST(result.blockers.empty());
+    for (int k = 0; k <= 40; ++k) {
+      const auto pose = random.wide().pose_at(WideReal(k) / 40);
+      BOOST_TEST(!(deepest_penetration(object, feeler::test::checked_tool(box), pose).depth > 0));
+    }
+  }
+  BOOST_TEST(near > 100);
+  BOOST_TEST(parted > free * 3 / 4);  // one plane a triangle is mostly enough
+  BOOST_TEST_MESSAGE(parted << " parted of " << free << " free, " << near << " not");
+}
+
+BOOST_AUTO_TEST_CASE(no_tool_is_parted_from_anything_without_the_work_for_it) {
+  std::mt19937 bits(9);
+  const Soup soup(bits, 1000, Vector::Zero());
+  const TriangleMesh<double> mesh(soup.vertices, soup.triangles);
+  const Box box(Vector(0.001, 0.001, 0.001));
+  RandomMotion<Box> random(bits, box);
+  random.motion = {};
+  PlaneCache<double> planes;
+  int work = 0;
+  BOOST_TEST(!Sweep<Box>(planes, {}).parts(mesh, random.moving(), work, -1));
+}
+
 #if FEELER_TEST_COUNTS_ALLOCATIONS
 BOOST_AUTO_TEST_CASE(certifying_allocates_nothing_and_the_count_would_show_it) {
   BOOST_TEST(feeler_test::count_works());

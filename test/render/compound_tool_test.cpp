@@ -5,10 +5,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 #include <vector>
 
 #include "scenes/cavity.hpp"
 #include "scenes/spline.hpp"
+#include "scenes/terrain.hpp"
 #include "support/rendering.hpp"
 
 BOOST_AUTO_TEST_SUITE(compound_tools)
@@ -44,6 +46,19 @@ Compound cut_cube(double half) {
   }
   return Compound::hulls_of(sets);
 }
+
+/// A hull that counts how often it is asked for a vertex.
+class Counted : public Hull {
+ public:
+  inline static thread_local long calls = 0;
+
+  explicit Counted(Hull hull) : Hull(std::move(hull)) {}
+  int support(const Vector3<double>& direction) const noexcept {
+    ++calls;
+    return Hull::support(direction);
+  }
+};
+static_assert(ConvexTool<Counted>);
 
 struct PiecewiseWitness {
   std::vector<Witness> pieces;
@@ -105,6 +120,49 @@ BOOST_AUTO_TEST_CASE(a_cube_cut_into_eight_pieces_is_rendered_like_the_whole_one
       BOOST_TEST(in_other_pieces > 0);
     }
   }
+}
+
+BOOST_AUTO_TEST_CASE(a_rod_cut_into_sixty_four_is_rendered_like_the_whole_one_and_its_far_pieces_are_left_alone) {
+  const auto scene = scenes::terrain(22);
+  const TriangleMesh<double> object(scene.vertices, scene.triangles);
+  const auto rod_of = [](int count) {
+    std::vector<Counted> pieces;
+    for (int i = 0; i < count; ++i) {
+      pieces.emplace_back(Hull::hull_of(cuboid({-0.002, -0.002, 0.06 * i / count}, {0.002, 0.002, 0.06 * (i + 1) / count})));
+    }
+    return CompoundTool<Counted>(std::move(pieces));
+  };
+  const auto motion = [](double t) {
+    return scenes::pose_of({0.3 * std::sin(4.5 * t), 0.3 * std::sin(3.9 * t), 0.6 * std::sin(2.0 * t)},
+                           {0.04 * std::sin(4.0 * t), 0.04 * std::sin(2.7 * t), 0.02 - scenes::approach(t) * 0.022});
+  };
+  HapticRenderer whole(object, rod_of(1), scene.settings());
+  HapticRenderer cut(object, rod_of(64), scene.settings());
+  BOOST_TEST((whole.reset(motion(0)) == Status::converged));
+  BOOST_TEST((cut.reset(motion(0)) == Status::converged));
+  double farthest = 0;
+  long calls_of_whole = 0, calls_of_cut = 0;
+  int converged = 0, touching = 0;
+  const int ticks = ticks_to_run(1000);
+  for (int i = 1; i <= ticks; ++i) {
+    const Pose<double> haptic = motion(2e-3 * i);
+    Counted::calls = 0;
+    const Pose<double> expected = whole.update(haptic).graphic_pose;
+    calls_of_whole += Counted::calls;
+    Counted::calls = 0;
+    const auto& tick = cut.update(haptic);
+    calls_of_cut += Counted::calls;
+    BOOST_TEST(is_valid(tick, object.triangle_count()));
+    touching += tick.contacts.empty() ? 0 : 1;
+    if (!whole.tick().converged() || !tick.converged()) continue;
+    ++converged;
+    farthest = std::max(farthest, pose_error(expected, tick.graphic_pose).at(0.06));
+  }
+  BOOST_TEST_MESSAGE("support calls: " << calls_of_whole << " of the whole, " << calls_of_cut << " of the pieces; " << farthest << " m apart");
+  BOOST_TEST(farthest < 2e-6);
+  BOOST_TEST(converged > 0.98 * ticks);
+  BOOST_TEST(touching > ticks / 2);
+  BOOST_TEST(calls_of_cut < 2 * calls_of_whole);  // each piece by itself: 27 times as many
 }
 
 BOOST_AUTO_TEST_CASE(a_splined_shaft_slides_along_its_axis_like_the_device_and_turns_by_its_play) {

@@ -11,6 +11,7 @@
 #include "feeler/core/fixed_vector.hpp"
 #include "feeler/core/scalar.hpp"
 #include "feeler/object/triangle_mesh.hpp"
+#include "feeler/proximity/gjk.hpp"
 #include "feeler/proximity/motion.hpp"
 #include "feeler/proximity/passage.hpp"
 #include "feeler/proximity/plane_cache.hpp"
@@ -77,17 +78,58 @@ class Sweep {
                               Scalar until = Scalar(1)) noexcept {
     SweepResult<Scalar> result;
     result.time = until;
-    start_ = moving.frame_at(Scalar(0));
-    to_boxes_ = moving.origin() - mesh.bvh().origin().template cast<Scalar>();
-    extent_ = Scalar(mesh.bounds().diagonal().norm());
-    set_end(moving, until);
-    planes_.age();
+    begin(mesh, moving, until);
     for (const KnownTriangle<Scalar>& pair : known) {
       if (passes(pair.state.corners)) continue;
       examine(pair.triangle, pair.state, from_known_, moving, result, work);
       if (work > limit) return give_up(result);
     }
+    const bool is_whole = traverse(mesh, moving, work, limit, [&](int triangle, const Matrix3<Scalar>& corners) {
+      if (!is_among(triangle, known)) examine(triangle, {corners, Vector::Zero(), {}, false}, clearance_, moving, result, work);
+      return true;
+    });
+    return is_whole ? result : give_up(result);
+  }
 
+  /// Whether single planes part the tool over the whole motion from every triangle. They are looked for at its start alone: false may mean
+  /// that there are some.
+  /// @param work, limit  as in `certify`
+  template <class MeshScalar>
+  bool parts(const TriangleMesh<MeshScalar>& mesh, const MovingTool<Tool>& moving, int& work, int limit) noexcept {
+    begin(mesh, moving, Scalar(1));
+    return traverse(mesh, moving, work, limit, [&](int, const Matrix3<Scalar>& corners) {
+      ++work;
+      const auto closest = gjk(moving.tool(), moving.in_tool(corners, start_), {}, clearance_.touching);
+      if (closest.is_touching) return false;
+      add_plane(start_.rotation * closest.normal, moving);
+      return passes(corners);
+    });
+  }
+
+ private:
+  using Frame = MotionFrame<Scalar>;
+  static constexpr int lanes = 4;
+  using Lanes = Eigen::Array<float, lanes, 1>;
+  /// Planes for boxes, to be tested together.
+  struct BoxPlanes {
+    std::array<Lanes, 3> normal{Lanes::Zero(), Lanes::Zero(), Lanes::Zero()};
+    std::array<Lanes, 3> size = normal;  // the normals' magnitudes
+    Lanes limit = Lanes::Constant(-std::numeric_limits<float>::infinity());  // of no plane: nothing passes
+  };
+
+  template <class MeshScalar>
+  void begin(const TriangleMesh<MeshScalar>& mesh, const MovingTool<Tool>& moving, Scalar until) noexcept {
+    start_ = moving.frame_at(Scalar(0));
+    to_boxes_ = moving.origin() - mesh.bvh().origin().template cast<Scalar>();
+    extent_ = Scalar(mesh.bounds().diagonal().norm());
+    planes_.age();
+    set_end(moving, until);
+  }
+
+  /// Calls `visit(triangle, its corners relative to the motion's origin)` for every triangle that no cached plane passes, until one call
+  /// is false or the work done exceeds its limit; true when it came to the end.
+  template <class MeshScalar, class Visit>
+  bool traverse(const TriangleMesh<MeshScalar>& mesh, const MovingTool<Tool>& moving, int& work, int limit, const Visit& visit) noexcept {
     const auto& bvh = mesh.bvh();
     const auto nodes = bvh.nodes();
     const auto order = bvh.triangle_order();
@@ -101,7 +143,7 @@ class Sweep {
         tests = 0;
         ++work;
       }
-      if (work > limit) return give_up(result);
+      if (work > limit) return false;
       if (node.count == 0) {
         const int later = is_ahead(nodes[std::size_t(node.first + 1)], nodes[std::size_t(node.first)], moving) ? 1 : 0;
         for (const int child : {node.first + later, node.first + 1 - later}) {
@@ -113,23 +155,11 @@ class Sweep {
         const int triangle = order[std::size_t(i)];
         const Matrix3<Scalar> corners =
             mesh.corners(triangle).template cast<Scalar>().colwise() - moving.origin();
-        if (passes(corners) || is_among(triangle, known)) continue;
-        examine(triangle, {corners, Vector::Zero(), {}, false}, clearance_, moving, result, work);
+        if (!passes(corners) && !visit(triangle, corners)) return false;
       }
     }
-    return result;
+    return true;
   }
-
- private:
-  using Frame = MotionFrame<Scalar>;
-  static constexpr int lanes = 4;
-  using Lanes = Eigen::Array<float, lanes, 1>;
-  /// Planes for boxes, to be tested together.
-  struct BoxPlanes {
-    std::array<Lanes, 3> normal{Lanes::Zero(), Lanes::Zero(), Lanes::Zero()};
-    std::array<Lanes, 3> size = normal;  // the normals' magnitudes
-    Lanes limit = Lanes::Constant(-std::numeric_limits<float>::infinity());  // of no plane: nothing passes
-  };
 
   /// Whether the tool comes to a box after another one: an early blocker saves work on all that lies behind it.
   template <class Node>

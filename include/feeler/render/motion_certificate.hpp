@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bitset>
 #include <limits>
 #include <span>
 
@@ -10,10 +11,12 @@
 #include "feeler/proximity/plane_cache.hpp"
 #include "feeler/proximity/sweep.hpp"
 #include "feeler/render/rendered_scene.hpp"
+#include "feeler/tool/piece_tree.hpp"
 
 namespace feeler {
 
-/// Certifies motions in a scene, and keeps the planes that parted each piece of the tool from its surroundings for the next motion.
+/// Certifies motions in a scene, and keeps the planes that parted the tool from its surroundings for the next motion: those of each piece,
+/// and those of the groups that the pieces of a compound tool are in.
 template <RigidTool ToolType>
 class MotionCertificate {
  public:
@@ -23,6 +26,7 @@ class MotionCertificate {
 
   void clear() noexcept {
     for (auto& planes : planes_) planes.clear();
+    for (auto& group : groups_) group.clear();
   }
 
   /// @param from    pose of the reference point
@@ -32,45 +36,97 @@ class MotionCertificate {
   template <int pair_capacity = 1>
   SweepResult<Scalar> certify(const Scene& scene, const Pose<Scalar>& from, const Twist<Scalar>& motion, int& work, int limit,
                               const WorkingSet<Scalar, pair_capacity>& pairs = {}, Scalar far = std::numeric_limits<Scalar>::infinity()) noexcept {
-    SweepResult<Scalar> result;
-    Scalar until = Scalar(1);
-    for (int piece = 0; piece < scene.piece_count(); ++piece) {
-      const MovingTool<Piece> moving = scene.moving(piece, from, motion);
-      Clearance<Scalar> clearance = scene.clearance_for(moving);
-      // A ball that slides in a fit comes as near to the next triangle of a wall as it is to this one. What to keep is safe to judge by the
-      // nearest, because the core stays a radius away.
-      if constexpr (SweptTool<Piece>) {
-        for (int i = 0; i < pairs.size(); ++i) {
-          if (pairs[i].piece == piece) clearance.kept = std::min(clearance.kept, clearance.required(pairs[i].slack));
+    if constexpr (!CompoundShape<ToolType>) {
+      return certify_piece(0, scene, scene.moving(0, from, motion), work, limit, pairs, far, Scalar(1));
+    } else {
+      const auto is_near = find_near_pieces(scene, from, motion, work, limit);
+      SweepResult<Scalar> result;
+      Scalar until = Scalar(1);
+      for (int piece = 0; piece < scene.piece_count(); ++piece) {
+        if (!is_near[std::size_t(piece)]) continue;
+        const MovingTool<Piece> moving = scene.moving(piece, from, motion);
+        const auto passed = certify_piece(piece, scene, moving, work, limit, pairs, far, until);
+        for (const auto& blocker : passed.blockers) add({blocker.triangle, blocker.time, piece}, result);
+        if (passed.is_exhausted) {
+          result.is_exhausted = true;
+          result.time = Scalar(0);
+          break;
         }
-        clearance.kept_from_unknown = clearance.kept;
+        if (passed.blockers.empty()) continue;
+        result.time = std::min(result.time, passed.time);
+        const Scalar enough = worth_certifying(result.time, scene.clearance(), moving);
+        if (2 * enough <= until) until = enough;
       }
-      std::array<KnownTriangle<Scalar>, std::size_t(pair_capacity)> known;
-      int known_count = 0;
-      for (int i = 0; i < pairs.size(); ++i) {
-        const auto& pair = pairs[i];
-        if (pair.piece != piece || pair.is_beyond(far)) continue;
-        known[std::size_t(known_count++)] = {
-            pair.triangle, {pair.corners_world.colwise() - moving.origin(), pair.normal, pair.features, true}};
-      }
-      const auto passed = Sweep<Piece>(planes_[std::size_t(piece)], clearance)
-                              .certify(scene.object(), moving, std::span(known).first(std::size_t(known_count)), work, limit, until);
-      if constexpr (maximum_pieces<ToolType> == 1) return passed;
-      for (const auto& blocker : passed.blockers) add({blocker.triangle, blocker.time, piece}, result);
-      if (passed.is_exhausted) {
-        result.is_exhausted = true;
-        result.time = Scalar(0);
-        break;
-      }
-      if (passed.blockers.empty()) continue;
-      result.time = std::min(result.time, passed.time);
-      const Scalar enough = worth_certifying(result.time, clearance, moving);
-      if (2 * enough <= until) until = enough;
+      return result;
     }
-    return result;
   }
 
  private:
+  /// What is known of a group of pieces.
+  struct Group {
+    PlaneCache<Scalar> planes;
+    int rest = 0;  // motions for which it is not tried
+
+    void clear() noexcept {
+      planes.clear();
+      rest = 0;
+    }
+  };
+  static constexpr int rest_after_failure = 64;
+
+  /// The pieces that no group shows to pass everything.
+  std::bitset<std::size_t(maximum_pieces<ToolType>)> find_near_pieces(const Scene& scene, const Pose<Scalar>& from, const Twist<Scalar>& motion,
+                                                                      int& work, int limit) noexcept
+    requires CompoundShape<ToolType>
+  {
+    std::bitset<std::size_t(maximum_pieces<ToolType>)> is_near;
+    const auto nodes = scene.piece_groups();
+    for (std::size_t i = 0; i < nodes.size(); ++i) {
+      const auto& node = nodes[i];
+      if (node.is_single()) {
+        is_near.set(std::size_t(node.index));
+      } else if (passes(groups_[std::size_t(node.index)], scene, scene.moving(node, from, motion), work, limit)) {
+        i += std::size_t(node.subtree_size() - 1);
+      }
+    }
+    return is_near;
+  }
+
+  static bool passes(Group& group, const Scene& scene, const MovingTool<Box<Scalar>>& moving, int& work, int limit) noexcept {
+    if (group.rest > 0) {
+      --group.rest;
+      return false;
+    }
+    const bool is_clear = Sweep<Box<Scalar>>(group.planes, scene.clearance_for(moving)).parts(scene.object(), moving, work, limit);
+    if (!is_clear) group.rest = rest_after_failure;
+    return is_clear;
+  }
+
+  /// As `certify`, for one piece and the times up to `until`.
+  template <int pair_capacity>
+  SweepResult<Scalar> certify_piece(int piece, const Scene& scene, const MovingTool<Piece>& moving, int& work, int limit,
+                                    const WorkingSet<Scalar, pair_capacity>& pairs, Scalar far, Scalar until) noexcept {
+    Clearance<Scalar> clearance = scene.clearance_for(moving);
+    // A ball that slides in a fit comes as near to the next triangle of a wall as it is to this one. What to keep is safe to judge by the
+    // nearest, because the core stays a radius away.
+    if constexpr (SweptTool<Piece>) {
+      for (int i = 0; i < pairs.size(); ++i) {
+        if (pairs[i].piece == piece) clearance.kept = std::min(clearance.kept, clearance.required(pairs[i].slack));
+      }
+      clearance.kept_from_unknown = clearance.kept;
+    }
+    std::array<KnownTriangle<Scalar>, std::size_t(pair_capacity)> known;
+    int known_count = 0;
+    for (int i = 0; i < pairs.size(); ++i) {
+      const auto& pair = pairs[i];
+      if (pair.piece != piece || pair.is_beyond(far)) continue;
+      known[std::size_t(known_count++)] = {
+          pair.triangle, {pair.corners_world.colwise() - moving.origin(), pair.normal, pair.features, true}};
+    }
+    return Sweep<Piece>(planes_[std::size_t(piece)], clearance)
+        .certify(scene.object(), moving, std::span(known).first(std::size_t(known_count)), work, limit, until);
+  }
+
   /// Keeps the earliest blockers.
   static void add(const Blocker<Scalar>& blocker, SweepResult<Scalar>& result) noexcept {
     if (result.blockers.push_back(blocker)) return;
@@ -80,6 +136,7 @@ class MotionCertificate {
   }
 
   std::array<PlaneCache<Scalar>, std::size_t(maximum_pieces<ToolType>)> planes_;
+  std::array<Group, std::size_t(maximum_pieces<ToolType> - 1)> groups_;
 };
 
 }  // namespace feeler

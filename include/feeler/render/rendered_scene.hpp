@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <limits>
+#include <span>
 #include <type_traits>
 
 #include "feeler/object/triangle_mesh.hpp"
@@ -12,6 +13,7 @@
 #include "feeler/proximity/separation.hpp"
 #include "feeler/render/idle_turns.hpp"
 #include "feeler/render/settings.hpp"
+#include "feeler/tool/piece_tree.hpp"
 #include "feeler/tool/rigid_tool.hpp"
 #include "feeler/tool/tool_incidence.hpp"
 
@@ -45,7 +47,8 @@ class RenderedScene {
         settings_(settings),
         reference_(settings.reference_point.template cast<Scalar>()),
         metric_(settings.metric_in_use().template cast<Scalar>()),
-        idle_turns_(tool_, reference_, metric_) {
+        idle_turns_(tool_, reference_, metric_),
+        piece_tree_(tool_) {
     Scalar surface = Scalar(0);
     for (int i = 0; i < piece_count(); ++i) {
       incidences_[index(i)] = incidence_of(piece(i));
@@ -66,6 +69,12 @@ class RenderedScene {
   const Tool& tool() const noexcept { return tool_; }
   int piece_count() const noexcept { return feeler::piece_count(tool_); }
   const Piece& piece(int i) const noexcept { return piece_of(tool_, i); }
+  /// The pieces in groups; of a tool that is several.
+  std::span<const PieceGroup<Scalar>> piece_groups() const noexcept
+    requires CompoundShape<Tool>
+  {
+    return piece_tree_.nodes();
+  }
   const FeatureIncidence& incidence(int i) const noexcept { return incidences_[index(i)]; }
   const Settings<MeshScalar>& settings() const noexcept { return settings_; }
   /// In the tool frame [m].
@@ -76,7 +85,8 @@ class RenderedScene {
   const Clearance<Scalar>& clearance() const noexcept { return clearance_; }
   /// The clearance to certify a motion with. Where it ends is rounded to the size of the numbers it starts from, so a tool that comes from
   /// kilometres away keeps as much distance.
-  Clearance<Scalar> clearance_for(const MovingTool<Piece>& moving) const noexcept {
+  template <ConvexTool Moved>
+  Clearance<Scalar> clearance_for(const MovingTool<Moved>& moving) const noexcept {
     const Scalar rounding = 8 * std::numeric_limits<Scalar>::epsilon() * (moving.origin().norm() + moving.length());
     Clearance<Scalar> clearance = clearance_;
     clearance.kept = std::max(clearance.kept, rounding);
@@ -99,6 +109,11 @@ class RenderedScene {
   MovingTool<Piece> moving(int i, const Pose<Scalar>& from, const Twist<Scalar>& motion) const noexcept {
     return {piece(i), reference_, radii_[index(i)], from, motion};
   }
+  /// The box of a group of pieces on a motion of the whole.
+  MovingTool<Box<Scalar>> moving(const PieceGroup<Scalar>& group, const Pose<Scalar>& from, const Twist<Scalar>& motion) const noexcept {
+    const Vector3<Scalar> reference = reference_ - group.centre;
+    return {group.box, reference, reference.norm() + group.box.half_extents().norm(), from, motion};
+  }
   /// The turns that do not matter, and what is left of motions without them.
   const IdleTurns<Tool>& idle_turns() const noexcept { return idle_turns_; }
   /// Bound on the path of every point of the tool, or of its core [m].
@@ -117,6 +132,9 @@ class RenderedScene {
 
  private:
   static std::size_t index(int i) noexcept { return std::size_t(i); }
+  struct NoGroups {
+    explicit NoGroups(const Tool&) noexcept {}
+  };
 
   const TriangleMesh<MeshScalar>* object_;
   Tool tool_;
@@ -127,6 +145,7 @@ class RenderedScene {
   Scalar radius_ = Scalar(0);
   Metric<Scalar> metric_;
   [[no_unique_address]] IdleTurns<Tool> idle_turns_;
+  [[no_unique_address]] std::conditional_t<CompoundShape<Tool>, PieceTree<Tool>, NoGroups> piece_tree_;
   Clearance<Scalar> clearance_;
 };
 

@@ -14,7 +14,7 @@ namespace feeler {
 
 /// Up to 64 convex pieces of one type, all in the tool frame [m]. They may touch and overlap; the tool is their union.
 ///
-/// Each piece costs a renderer about as much as a tool of its own.
+/// To a renderer, each piece near the object costs about as much as a tool of its own; those far from it, next to nothing.
 template <ConvexTool PieceType>
 class CompoundTool {
  public:
