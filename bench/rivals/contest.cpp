@@ -48,15 +48,17 @@ bool merge(Track& kept, Track&& run) {
 }
 
 /// One run of all contenders; the last track is that of the distance query, with its answers.
-std::vector<Track> run_in_turns(Contest& contest, const std::vector<Pose<double>>& device, double patience,
-                                std::vector<double>& distances) {
+/// @param first_turn  ticks of it; all others are of `turn`
+std::vector<Track> run_in_turns(Contest& contest, const std::vector<Pose<double>>& device, int first_turn,
+                                double patience, std::vector<double>& distances) {
   const std::size_t contenders = contest.tools.size() + (contest.distance ? 1 : 0);
   std::vector<Track> tracks(contenders);
   std::vector<double> spent(contenders, 0.0);
   for (const auto& tool : contest.tools) tool->reset(contest.start);
   distances.clear();
-  for (std::size_t begin = 0; begin < device.size(); begin += turn) {
-    const std::size_t end = std::min(begin + turn, device.size());
+  for (std::size_t begin = 0, length = std::size_t(first_turn); begin < device.size();
+       begin += length, length = std::size_t(turn)) {
+    const std::size_t end = std::min(begin + length, device.size());
     for (std::size_t c = 0; c < contenders; ++c) {
       Track& track = tracks[c];
       if (spent[c] > 1e6 * patience) continue;
@@ -167,7 +169,9 @@ std::vector<Score> hold(Contest& contest, const ContestOptions& options) {
   std::vector<Score> scores(contest.tools.size() + (contest.distance ? 1 : 0));
   std::vector<double> distances;
   for (int run = 0; run < options.repeats; ++run) {
-    auto now = run_in_turns(contest, ticks, options.patience, distances);
+    // No tick is in every run the first of a turn, which finds the caches full of what others need.
+    const int first_turn = turn - turn * run / options.repeats;
+    auto now = run_in_turns(contest, ticks, first_turn, options.patience, distances);
     tracks.resize(now.size());
     for (std::size_t c = 0; c < now.size(); ++c)
       scores[c].is_repeatable &= merge(tracks[c], std::move(now[c]));

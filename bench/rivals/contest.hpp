@@ -54,7 +54,7 @@ struct Score {
 };
 
 /// Runs all contenders over the motion in turns of 200 ticks, so that what else the machine does hits all
-/// alike, and then looks at what they did.
+/// alike, and then looks at what they did. Turns begin at other ticks in every run.
 ///
 /// A tick is in contact when the first tool is held away from the device by an energy of more than 1e-14 m²,
 /// for all contenders alike: a spring never rests on the device. For jitter the motion stops after each of
