@@ -11,10 +11,37 @@
 
 namespace feeler {
 
+/// How low the tool comes along a world normal on a motion: the heights of its lowest point, relative to the motion's origin [m].
+///
+/// With heights A, B at the ends and a sagitta g, the tool stays above every height that is s below the lower of them where
+/// √s + √(s + |A − B|) ≥ 2√g.
+template <class Scalar>
+struct PlaneOnMotion {
+  Vector3<Scalar> normal;
+  Scalar start;  // height at the start, time 0
+  Scalar least;  // below which it does not come
+
+  template <class Moving>
+  void begin(const Moving& moving, const MotionFrame<Scalar>& frame) noexcept {
+    start = moving.lowest(normal, frame);
+  }
+  template <class Moving>
+  void end(const Moving& moving, const MotionFrame<Scalar>& frame) noexcept {
+    using std::sqrt;
+    const Scalar end = moving.lowest(normal, frame), sagitta = moving.sagitta(normal, frame.time);
+    const Scalar difference = start < end ? end - start : start - end;
+    Scalar slack(0);
+    if (difference < 4 * sagitta) {
+      const Scalar root = sqrt(sagitta) - difference / (4 * sqrt(sagitta));
+      slack = root * root;
+    }
+    least = (start < end ? start : end) - slack;
+  }
+};
+
 /// World normals of separating planes, from tick to tick, and their limits over the motion at hand.
 ///
-/// A plane with normal n parts the tool from every y with n·y ≤ limit over the whole motion: with heights A, B of the tool's lowest
-/// point at the ends and a sagitta g, a slack s above the limit holds where √s + √(s + |A − B|) ≥ 2√g.
+/// A plane with normal n parts the tool from every y with n·y ≤ limit over the whole motion.
 /// Against a wall that the tool touches no plane keeps that distance; there `parts_closely` asks for no more than there was at the start.
 template <class ScalarType>
 class PlaneCache {
@@ -40,8 +67,9 @@ class PlaneCache {
     }
     Plane& plane = planes_[index(place)];
     plane.normal = normal;
-    plane.hits = 4;
-    plane.measure(moving, start, end, kept);
+    plane.hits = 2;
+    plane.begin(moving, start);
+    plane.end(moving, end, kept);
     return place;
   }
 
@@ -52,11 +80,15 @@ class PlaneCache {
     return slack >= -2 * clearance.allowance && slack >= clearance.required(plane.start - height);
   }
 
-  /// Finds the limits for a motion.
+  /// Finds the heights at the start of a motion.
   template <class Moving>
-  void prepare(const Moving& moving, const MotionFrame<Scalar>& start, const MotionFrame<Scalar>& end,
-               Scalar kept) noexcept {
-    for (int i = 0; i < size_; ++i) planes_[index(i)].measure(moving, start, end, kept);
+  void begin(const Moving& moving, const MotionFrame<Scalar>& start) noexcept {
+    for (int i = 0; i < size_; ++i) planes_[index(i)].begin(moving, start);
+  }
+  /// Finds the limits for a motion that ends at a frame, and may have ended later before.
+  template <class Moving>
+  void end(const Moving& moving, const MotionFrame<Scalar>& end, Scalar kept) noexcept {
+    for (int i = 0; i < size_; ++i) planes_[index(i)].end(moving, end, kept);
   }
   /// Halves the hits and brings the most useful planes to the front.
   void age() noexcept {
@@ -67,41 +99,19 @@ class PlaneCache {
     while (size_ > 0 && planes_[index(size_ - 1)].hits == 0) --size_;
   }
 
-  template <class Moving>
-  static Scalar limit_of(const Vector3<Scalar>& normal, const Moving& moving, const MotionFrame<Scalar>& start,
-                         const MotionFrame<Scalar>& end, Scalar kept) noexcept {
-    return least_height(moving.lowest(normal, start), moving.lowest(normal, end), moving.sagitta(normal, end.time - start.time)) - kept;
-  }
-
  private:
   static std::size_t index(int i) noexcept { return std::size_t(i); }
 
-  struct Plane {
-    Vector3<Scalar> normal;
-    Scalar start;  // height of the tool's lowest point at the start
-    Scalar least;  // below which it does not come
+  struct Plane : PlaneOnMotion<Scalar> {
     Scalar limit;
     int hits = 0;
 
     template <class Moving>
-    void measure(const Moving& moving, const MotionFrame<Scalar>& from, const MotionFrame<Scalar>& to, Scalar kept) noexcept {
-      start = moving.lowest(normal, from);
-      least = least_height(start, moving.lowest(normal, to), moving.sagitta(normal, to.time - from.time));
-      limit = least - kept;
+    void end(const Moving& moving, const MotionFrame<Scalar>& frame, Scalar kept) noexcept {
+      PlaneOnMotion<Scalar>::end(moving, frame);
+      limit = this->least - kept;
     }
   };
-
-  /// Below which the tool certainly does not come.
-  static Scalar least_height(Scalar at_start, Scalar at_end, Scalar sagitta) noexcept {
-    using std::sqrt;
-    const Scalar difference = at_start < at_end ? at_end - at_start : at_start - at_end;
-    Scalar slack(0);
-    if (difference < 4 * sagitta) {
-      const Scalar root = sqrt(sagitta) - difference / (4 * sqrt(sagitta));
-      slack = root * root;
-    }
-    return (at_start < at_end ? at_start : at_end) - slack;
-  }
 
   int size_ = 0;
   std::array<Plane, capacity> planes_;

@@ -123,6 +123,11 @@ class Sweep {
     to_boxes_ = moving.origin() - mesh.bvh().origin().template cast<Scalar>();
     extent_ = Scalar(mesh.bounds().diagonal().norm());
     planes_.age();
+    planes_.begin(moving, start_);
+    for (std::size_t i = 0; i < sides_.size(); ++i) {
+      sides_[i].normal = Vector::Unit(int(i / 2)) * Scalar(i % 2 == 0 ? 1 : -1);
+      sides_[i].begin(moving, start_);
+    }
     set_end(moving, until);
   }
 
@@ -204,13 +209,13 @@ class Sweep {
   /// From here on only [0, time] is certified.
   void set_end(const MovingTool<Tool>& moving, Scalar time) noexcept {
     end_ = moving.frame_at(time);
-    planes_.prepare(moving, start_, end_, clearance_.kept);
-    for (int k = 0; k < 3; ++k) {
-      const Vector axis = Vector::Unit(k);
-      const Scalar below = PlaneCache<Scalar>::limit_of(axis, moving, start_, end_, clearance_.kept) + to_boxes_[k];
-      const Scalar above = PlaneCache<Scalar>::limit_of(Vector(-axis), moving, start_, end_, clearance_.kept) - to_boxes_[k];
-      lower_[std::size_t(k)] = round_down(below, below);
-      upper_[std::size_t(k)] = -round_down(above, above);
+    planes_.end(moving, end_, clearance_.kept);
+    for (auto& side : sides_) side.end(moving, end_);
+    for (std::size_t k = 0; k < 3; ++k) {
+      const Scalar below = sides_[2 * k].least - clearance_.kept + to_boxes_[int(k)];
+      const Scalar above = sides_[2 * k + 1].least - clearance_.kept - to_boxes_[int(k)];
+      lower_[k] = round_down(below, below);
+      upper_[k] = -round_down(above, above);
     }
     for (int i = 0; i < planes_.size(); ++i) set_box_plane(i);
   }
@@ -277,6 +282,7 @@ class Sweep {
   Scalar extent_ = Scalar(0);  // of the mesh [m]
   Frame start_;
   Frame end_;
+  std::array<PlaneOnMotion<Scalar>, 6> sides_;  // of a box along the world axes around the motion
   std::array<float, 3> lower_{}, upper_{};
   std::array<BoxPlanes, std::size_t(PlaneCache<Scalar>::capacity / lanes)> box_planes_;
 };

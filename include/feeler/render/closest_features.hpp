@@ -16,6 +16,7 @@
 #include "feeler/render/step_limits.hpp"
 #include "feeler/render/step_problem.hpp"
 #include "feeler/render/tick.hpp"
+#include "feeler/render/work_budget.hpp"
 
 namespace feeler {
 
@@ -41,7 +42,7 @@ class ClosestFeaturesFollower {
     working_set_.clear();
     certificate_.clear();
     goes_on_ = false;
-    patience_ = 0;
+    budget_.reset();
     limits_.reset(scene.trust_radius());
   }
 
@@ -51,8 +52,9 @@ class ClosestFeaturesFollower {
     const int idle_legs = tick.path.size();
     working_set_.age(longest_idle, 4 * scene.margin(), 4 * scene.trust_radius(), goes_on_);
     if (!goes_on_) limits_.reset(scene.trust_radius());
+    budget_.begin_tick(scene.settings().work_budget);
     goes_on_ = !advance(scene, tick);
-    adapt_budget(scene, tick, tick.path.size() > idle_legs);
+    budget_.end_tick(tick.work, tick.path.size() > idle_legs);
     turn_idly(scene, tick);
     return goes_on_ ? Status::unconverged : Status::converged;
   }
@@ -101,17 +103,6 @@ class ClosestFeaturesFollower {
     Scalar restoration = 0;   // energy that it may cost to win the margin back [m²]
   };
 
-  /// A fit all around a tool may take more work to look at once than a tick has; with less it would never move.
-  int work_budget(const Scene& scene) const noexcept { return scene.settings().work_budget << patience_; }
-
-  /// Doubles the budget after a tick in which it ran out before the tool moved or a second linearisation, and halves it where half would do.
-  void adapt_budget(const Scene& scene, const Tick<MeshScalar>& tick, bool has_moved) noexcept {
-    constexpr int most_patience = 4;
-    const bool is_too_little = !has_moved || tick.iterations < 2;
-    if (tick.work >= work_budget(scene) && is_too_little) patience_ = std::min(patience_ + 1, most_patience);
-    if (tick.work < work_budget(scene) / 3) patience_ = std::max(patience_ - 1, 0);
-  }
-
   /// What is farther away cannot stop the next step [m].
   Scalar reach_of_step(const Scene& scene) const noexcept { return limits_.trust() + scene.margin(); }
 
@@ -141,6 +132,7 @@ class ClosestFeaturesFollower {
     tick.iterations = 0;
     do {
       ++tick.iterations;
+      budget_.begin_iteration(tick.work);
       const Proposal proposal = propose(scene, came_to_nothing ? 1 : maximum_rounds, tick);
       const Scalar length = scene.length_of(proposal.motion, pose_);
       if (!proposal.is_settled && !came_to_nothing && length < very_short(scene)) {
@@ -175,7 +167,7 @@ class ClosestFeaturesFollower {
           limits_.narrow(length * std::max(result.time, Scalar(1) / 4));
         }
       }
-    } while (tick.iterations < maximum_iterations && tick.work < work_budget(scene) && !(limits_.trust() < resting));
+    } while (tick.iterations < maximum_iterations && !budget_.is_spent(tick.work) && !(limits_.trust() < resting));
     limits_.carry_over();
     return false;
   }
@@ -196,7 +188,7 @@ class ClosestFeaturesFollower {
     Pose<Scalar> pose = pose_;
     bool rests_on_assumption = false;
     Scalar previous(0);
-    for (int round = 0; round < rounds; ++round) {
+    for (int round = 0; round < rounds && !budget_.ends_motion(tick.work, round); ++round) {
       linearise(scene, pose, round == 0, !rests_on_assumption, tick);
       solve(scene, pose, proposal.is_capped);
       if (round == 0) proposal.restoration = problem_.cost_of_restoration();
@@ -357,8 +349,7 @@ class ClosestFeaturesFollower {
   }
 
   SweepResult<Scalar> certify(const Scene& scene, const Twist<Scalar>& motion, Tick<MeshScalar>& tick) noexcept {
-    const int limit = tick.work + std::max(work_budget(scene) / 2, work_budget(scene) - tick.work);
-    return certificate_.certify(scene, pose_, motion, tick.work, limit, working_set_, reach_of_step(scene));
+    return certificate_.certify(scene, pose_, motion, tick.work, budget_.limit_of_certificate(tick.work), working_set_, reach_of_step(scene));
   }
 
   Pair& take_in(const Scene& scene, int piece, int triangle) noexcept {
@@ -388,7 +379,7 @@ class ClosestFeaturesFollower {
   Pose<Scalar> pose_;     // the certified pose
   Pose<Scalar> target_;   // the haptic pose
   bool goes_on_ = false;  // the last tick left motion for this one
-  int patience_ = 0;      // doublings of the work budget
+  WorkBudget budget_;
   bool leaves_out_pairs_ = false;  // the last linearisation had pairs beyond its reach
   StepLimits<Scalar> limits_;
   Pairs working_set_;

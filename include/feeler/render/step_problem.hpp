@@ -4,11 +4,10 @@
 #include <algorithm>
 #include <array>
 
-#include <Eigen/Cholesky>
-
 #include "feeler/contact/contact_row.hpp"
 #include "feeler/core/fixed_vector.hpp"
 #include "feeler/core/scalar.hpp"
+#include "feeler/qp/ldlt6.hpp"
 #include "feeler/qp/qp_solver.hpp"
 #include "feeler/spatial/metric.hpp"
 
@@ -179,7 +178,7 @@ class StepProblem {
     // Not flatter than a twentieth of the metric: a flatter one makes steps that no linearisation can carry.
     for (const auto& [weight, share] : regularisations) {
       problem_.hessian = share * lagrangian + (Scalar(1) - share) * base + weight * across;
-      if (!is_positive_definite(problem_.hessian - base / 20)) continue;
+      if (!factor_.factor(problem_.hessian - base / 20)) continue;
       problem_.gradient = gradient - weight * pull;
       is_newton_ = share == Scalar(1);
       return;
@@ -195,12 +194,8 @@ class StepProblem {
   static constexpr std::array<Regularisation, 7> regularisations{
       {{0, 1}, {8, 1}, {64, 1}, {64, Scalar(15) / 16}, {64, Scalar(3) / 4}, {64, Scalar(1) / 2}, {64, Scalar(1) / 4}}};
 
-  static bool is_positive_definite(const Matrix6<Scalar>& matrix) noexcept {
-    const Eigen::LLT<Matrix6<Scalar>> factor(matrix);
-    return factor.info() == Eigen::Success;
-  }
-
   Solver solver_;
+  Ldlt6<Scalar> factor_;
   QpProblem<Scalar> problem_;
   QpSolution<Scalar> solution_;
   QpSolution<Scalar> projection_;

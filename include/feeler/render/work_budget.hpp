@@ -1,0 +1,55 @@
+// How much work a tick may take, and when it is spent.
+#pragma once
+
+#include <algorithm>
+
+namespace feeler {
+
+/// The work of a tick, in the unit of `Settings::work_budget`, against what it may take.
+///
+/// A new iteration is begun where half as much work as the last one took is left, so that a tick ends about where its budget does. A fit all
+/// around a tool may take more to look at once than a tick has: where that keeps the tool from moving for some ticks, the budget doubles.
+class WorkBudget {
+ public:
+  void reset() noexcept { starved_ = patience_ = 0; }
+
+  /// @param budget  of every tick
+  void begin_tick(int budget) noexcept {
+    allowed_ = budget << patience_;
+    begun_ = 0;
+    iterations_ = 0;
+  }
+  /// @param work  of the tick so far, here and below
+  void begin_iteration(int work) noexcept {
+    begun_ = work;
+    ++iterations_;
+  }
+  /// Whether there is not enough for another iteration.
+  bool is_spent(int work) const noexcept { return work + (work - begun_) / 2 > allowed_; }
+  /// Whether a motion has to do with the linearisations that it has had; the first motion of a tick may have two of them.
+  bool ends_motion(int work, int linearisations) const noexcept {
+    return work >= allowed_ && linearisations >= (iterations_ > 1 ? 1 : 2);
+  }
+  /// Work at which a certificate gives up. The first of a tick has half a budget at least.
+  int limit_of_certificate(int work) const noexcept {
+    return std::max(work + allowed_ / (iterations_ > 1 ? 8 : 2), allowed_);
+  }
+  /// Doubles the budget when it ran out before the tool moved, or before a second iteration, in some ticks in a row; halves it where half
+  /// would do.
+  void end_tick(int work, bool has_moved) noexcept {
+    constexpr int most_patience = 4, most_starved = 1;
+    const bool is_starved = is_spent(work) && (!has_moved || iterations_ < 2);
+    starved_ = is_starved ? starved_ + 1 : 0;
+    if (starved_ > most_starved) patience_ = std::min(patience_ + 1, most_patience);
+    if (work < allowed_ / 3) patience_ = std::max(patience_ - 1, 0);
+  }
+
+ private:
+  int allowed_ = 0;     // in this tick
+  int begun_ = 0;       // work when the iteration at hand began
+  int iterations_ = 0;  // begun in this tick
+  int starved_ = 0;     // ticks in a row
+  int patience_ = 0;    // doublings
+};
+
+}  // namespace feeler
