@@ -13,7 +13,7 @@
 namespace feeler::rivals {
 namespace {
 
-constexpr int turn = 200;                 // ticks
+constexpr int ticks_per_turn = 200;
 constexpr double contact_energy = 1e-14;  // [m²]
 
 /// Processor time of this thread [µs]: other programs on the machine do not count.
@@ -48,7 +48,7 @@ bool merge(Track& kept, Track&& run) {
 }
 
 /// One run of all contenders; the last track is that of the distance query, with its answers.
-/// @param first_turn  ticks of it; all others are of `turn`
+/// @param first_turn  ticks of it; all others are of `ticks_per_turn`
 std::vector<Track> run_in_turns(Contest& contest, const std::vector<Pose<double>>& device, int first_turn,
                                 double patience, std::vector<double>& distances) {
   const std::size_t contenders = contest.tools.size() + (contest.distance ? 1 : 0);
@@ -57,7 +57,7 @@ std::vector<Track> run_in_turns(Contest& contest, const std::vector<Pose<double>
   for (const auto& tool : contest.tools) tool->reset(contest.start);
   distances.clear();
   for (std::size_t begin = 0, length = std::size_t(first_turn); begin < device.size();
-       begin += length, length = std::size_t(turn)) {
+       begin += length, length = std::size_t(ticks_per_turn)) {
     const std::size_t end = std::min(begin + length, device.size());
     for (std::size_t c = 0; c < contenders; ++c) {
       Track& track = tracks[c];
@@ -170,7 +170,7 @@ std::vector<Score> hold(Contest& contest, const ContestOptions& options) {
   std::vector<double> distances;
   for (int run = 0; run < options.repeats; ++run) {
     // No tick is in every run the first of a turn, which finds the caches full of what others need.
-    const int first_turn = turn - turn * run / options.repeats;
+    const int first_turn = ticks_per_turn - ticks_per_turn * run / options.repeats;
     auto now = run_in_turns(contest, ticks, first_turn, options.patience, distances);
     tracks.resize(now.size());
     for (std::size_t c = 0; c < now.size(); ++c)
