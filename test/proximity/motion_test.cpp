@@ -183,6 +183,19 @@ BOOST_AUTO_TEST_CASE(first_root_is_where_a_dense_sample_of_the_slack_first_falls
   BOOST_TEST(feeler::first_root(1.0, -1.0, 0.0) == 0.5);
 }
 
+namespace {
+
+/// How low a tool comes along a normal up to a time.
+template <class Moving>
+double least_height(const Vector& normal, const Moving& moving, double time) {
+  feeler::PlaneOnMotion<double> plane{normal, 0, 0};
+  plane.begin(moving, moving.frame_at(0));
+  plane.end(moving, moving.frame_at(time));
+  return plane.least;
+}
+
+}  // namespace
+
 BOOST_AUTO_TEST_CASE(a_cached_plane_keeps_its_distance_over_the_whole_motion_and_gives_little_away) {
   constexpr unsigned seed = 5;
   BOOST_TEST_MESSAGE("seed " << seed);
@@ -212,10 +225,12 @@ BOOST_AUTO_TEST_CASE(a_cached_plane_keeps_its_distance_over_the_whole_motion_and
     // For another motion the limits are found anew.
     const RandomMotion<feeler::Box<double>> next(bits, random.tool);
     const auto next_moving = next.moving();
-    cache.prepare(next_moving, next_moving.frame_at(0), next_moving.frame_at(1), kept);
-    BOOST_TEST(cache.limit(place) == feeler::PlaneCache<double>::limit_of(normal, next_moving,
-                                                                          next_moving.frame_at(0),
-                                                                          next_moving.frame_at(1), kept));
+    cache.begin(next_moving, next_moving.frame_at(0));
+    cache.end(next_moving, next_moving.frame_at(1), kept);
+    BOOST_TEST(cache.limit(place) == least_height(normal, next_moving, 1) - kept);
+    // Nor does a motion that is shortened later need another beginning.
+    cache.end(next_moving, next_moving.frame_at(0.5), kept);
+    BOOST_TEST(cache.limit(place) == least_height(normal, next_moving, 0.5) - kept);
   }
 }
 
@@ -231,8 +246,7 @@ BOOST_AUTO_TEST_CASE(the_limit_of_a_plane_is_as_high_as_a_point_that_swings_thro
       feeler::Twist<double> motion{Vector::Zero(), Vector(0, angle, 0)};
       motion.linear.z() = rise * angle * angle * 0.1 / 2;
       const feeler::MovingTool<feeler::Segment<double>> moving(arm, Vector::Zero(), 0.1, pose, motion);
-      const double limit = feeler::PlaneCache<double>::limit_of(Vector::UnitZ(), moving, moving.frame_at(0),
-                                                                moving.frame_at(1), 0);
+      const double limit = least_height(Vector::UnitZ(), moving, 1);
       WideReal lowest = 0;
       for (int k = 0; k <= 10000; ++k) {
         const WideReal t = WideReal(k) / 10000;
@@ -270,8 +284,7 @@ BOOST_AUTO_TEST_CASE(
   BOOST_TEST(cache.normal(1) == normals[std::size_t(capacity - 2)]);
   BOOST_TEST(cache.normal(capacity - 1) == late);
   for (int i = 0; i < capacity; ++i)
-    BOOST_TEST(cache.limit(i) ==
-               feeler::PlaneCache<double>::limit_of(cache.normal(i), moving, start, end, 0));
+    BOOST_TEST(cache.limit(i) == least_height(cache.normal(i), moving, 1));
   cache.clear();
   BOOST_TEST(cache.size() == 0);
 }
