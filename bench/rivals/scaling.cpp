@@ -1,11 +1,11 @@
 // Terrain and pebbles of growing size, and a rod in ever more pieces.
 #include "rivals/scaling.hpp"
 
-#include <cmath>
 #include <cstdio>
 
 #include "feeler/tool/compound_tool.hpp"
 #include "rivals/arena.hpp"
+#include "scenes/rod.hpp"
 #include "scenes/terrain.hpp"
 
 namespace feeler::rivals {
@@ -28,18 +28,6 @@ ConvexPolytope<double> pebble_of(int vertices) {
   for (int i = 0; i < vertices; ++i)
     points.row(i) = random.direction().cwiseProduct(scenes::Vector(0.015, 0.012, 0.010)).transpose();
   return ConvexPolytope<double>::hull_of(points);
-}
-
-/// A rod of 4 × 4 × 60 mm upwards from the origin, cut across.
-CompoundTool<ConvexPolytope<double>> rod_of(int pieces) {
-  std::vector<Points<double>> sets(std::size_t(pieces), Points<double>(8, 3));
-  for (int i = 0; i < pieces; ++i) {
-    for (int k = 0; k < 8; ++k) {
-      sets[std::size_t(i)].row(k) << ((k & 1) != 0 ? 0.002 : -0.002), ((k & 2) != 0 ? 0.002 : -0.002),
-          0.06 * (i + (k >> 2)) / pieces;
-    }
-  }
-  return CompoundTool<ConvexPolytope<double>>::hulls_of(sets);
 }
 
 }  // namespace
@@ -67,16 +55,11 @@ std::vector<ScalingPoint> grow_tool(const ContestOptions& options) {
 
 std::vector<ScalingPoint> cut_tool(const ContestOptions& options) {
   std::vector<ScalingPoint> curve;
-  scenes::Setting scene = scenes::terrain(71);
-  scene.motion = [](double t) {
-    return scenes::pose_of(
-        {0.3 * std::sin(4.5 * t), 0.3 * std::sin(3.9 * t), 0.6 * std::sin(2.0 * t)},
-        {0.045 * std::sin(4.0 * t), 0.04 * std::sin(2.7 * t), 0.02 - 0.022 * scenes::approach(t)});
-  };
-  scene.start = scene.motion(0.0);
   for (const int pieces : {1, 2, 4, 8, 16, 32, 64}) {
     std::fprintf(stderr, "tool of %d pieces\n", pieces);
-    curve.push_back({pieces, scores_of(scene, rod_of(pieces), options)});
+    const scenes::CompoundScene scene = scenes::rod(71, pieces);
+    const auto tool = CompoundTool<ConvexPolytope<double>>::hulls_of(scene.pieces);
+    curve.push_back({pieces, scores_of(scene, tool, options)});
   }
   return curve;
 }

@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "scenes/cavity.hpp"
+#include "scenes/rod.hpp"
 #include "scenes/spline.hpp"
-#include "scenes/terrain.hpp"
 #include "support/rendering.hpp"
 
 BOOST_AUTO_TEST_SUITE(compound_tools)
@@ -123,29 +123,23 @@ BOOST_AUTO_TEST_CASE(a_cube_cut_into_eight_pieces_is_rendered_like_the_whole_one
 }
 
 BOOST_AUTO_TEST_CASE(a_rod_cut_into_sixty_four_is_rendered_like_the_whole_one_and_its_far_pieces_are_left_alone) {
-  const auto scene = scenes::terrain(22);
+  const auto scene = scenes::rod(22, 64);
   const TriangleMesh<double> object(scene.vertices, scene.triangles);
-  const auto rod_of = [](int count) {
+  const auto rod_of = [](const scenes::CompoundScene& cut) {
     std::vector<Counted> pieces;
-    for (int i = 0; i < count; ++i) {
-      pieces.emplace_back(Hull::hull_of(cuboid({-0.002, -0.002, 0.06 * i / count}, {0.002, 0.002, 0.06 * (i + 1) / count})));
-    }
+    for (const Points<double>& corners : cut.pieces) pieces.emplace_back(Hull::hull_of(corners));
     return CompoundTool<Counted>(std::move(pieces));
   };
-  const auto motion = [](double t) {
-    return scenes::pose_of({0.3 * std::sin(4.5 * t), 0.3 * std::sin(3.9 * t), 0.6 * std::sin(2.0 * t)},
-                           {0.04 * std::sin(4.0 * t), 0.04 * std::sin(2.7 * t), 0.02 - scenes::approach(t) * 0.022});
-  };
-  HapticRenderer whole(object, rod_of(1), scene.settings());
-  HapticRenderer cut(object, rod_of(64), scene.settings());
-  BOOST_TEST((whole.reset(motion(0)) == Status::converged));
-  BOOST_TEST((cut.reset(motion(0)) == Status::converged));
+  HapticRenderer whole(object, rod_of(scenes::rod(22, 1)), scene.settings());
+  HapticRenderer cut(object, rod_of(scene), scene.settings());
+  BOOST_TEST((whole.reset(scene.start) == Status::converged));
+  BOOST_TEST((cut.reset(scene.start) == Status::converged));
   double farthest = 0;
   long calls_of_whole = 0, calls_of_cut = 0;
   int converged = 0, touching = 0;
   constexpr int ticks = 1000;
   for (int i = 1; i <= ticks; ++i) {
-    const Pose<double> haptic = motion(2e-3 * i);
+    const Pose<double> haptic = scene.motion(2e-3 * i);
     Counted::calls = 0;
     const Pose<double> expected = whole.update(haptic).graphic_pose;
     calls_of_whole += Counted::calls;

@@ -69,7 +69,7 @@ class RenderedScene {
   const Tool& tool() const noexcept { return tool_; }
   int piece_count() const noexcept { return feeler::piece_count(tool_); }
   const Piece& piece(int i) const noexcept { return piece_of(tool_, i); }
-  /// The pieces in groups; of a tool that is several.
+  /// The pieces of a compound tool in their groups; see `PieceTree`.
   std::span<const PieceGroup<Scalar>> piece_groups() const noexcept
     requires CompoundShape<Tool>
   {
