@@ -188,7 +188,7 @@ namespace {
 /// How low a tool comes along a normal up to a time.
 template <class Moving>
 double least_height(const Vector& normal, const Moving& moving, double time) {
-  feeler::PlaneOnMotion<double> plane{normal, 0, 0};
+  feeler::PlaneOnMotion<double> plane{normal};
   plane.begin(moving, moving.frame_at(0));
   plane.end(moving, moving.frame_at(time));
   return plane.least;
@@ -231,6 +231,27 @@ BOOST_AUTO_TEST_CASE(a_cached_plane_keeps_its_distance_over_the_whole_motion_and
     // Nor does a motion that is shortened later need another beginning.
     cache.end(next_moving, next_moving.frame_at(0.5), kept);
     BOOST_TEST(cache.limit(place) == least_height(normal, next_moving, 0.5) - kept);
+  }
+}
+
+BOOST_AUTO_TEST_CASE(a_motion_that_goes_on_where_the_last_one_ended_has_the_limits_of_any_other) {
+  std::mt19937 bits(7);
+  for (int i = 0; i < 200; ++i) {
+    const RandomMotion<feeler::Box<double>> random(bits, random_box(bits));
+    const auto moving = random.moving();
+    const double ended = i % 2 == 0 ? 1.0 : fraction(bits);
+    const Vector normal = random_direction(bits);
+    feeler::PlaneCache<double> cache;
+    cache.begin(moving, moving.frame_at(0));
+    cache.add(normal, moving, moving.frame_at(0), moving.frame_at(1), 0);
+    cache.end(moving, moving.frame_at(ended), 0);
+    const feeler::MovingTool<feeler::Box<double>> next(random.tool, random.reference, moving.radius(), moving.pose_at(ended), random.motion);
+    cache.begin(next, next.frame_at(0));
+    cache.end(next, next.frame_at(1), 0);
+    const double size = moving.radius() + moving.length();
+    BOOST_TEST(std::abs(cache.limit(0) - least_height(normal, next, 1)) <= 1e-14 * size);
+    for (const auto& side : cache.sides())
+      BOOST_TEST(std::abs(side.least - least_height(side.normal, next, 1)) <= 1e-14 * size);
   }
 }
 

@@ -46,6 +46,7 @@ void check_tool_laws(const Tool& tool, bool solid = true, unsigned seed = 1) {
     for (int i = 0; i < n; ++i) best = std::max(best, wide(direction).dot(wide(tool.vertex(i))));
     BOOST_TEST(wide(direction).dot(wide(tool.vertex(found))) >=
                best - 4 * eps * size * wide(direction).norm());
+    BOOST_TEST(std::abs(static_cast<long double>(feeler::highest_along(tool, direction)) - best) <= 4 * eps * size * wide(direction).norm());
   };
   for (int i = 0; i < 200; ++i)
     check_support(feeler::Vector3<Scalar>(Scalar(normal(bits)), Scalar(normal(bits)), Scalar(normal(bits))));

@@ -50,6 +50,8 @@ class MovingTool {
         angle_(motion.angular.norm()), distance_(motion.linear.norm()), turning_(longest_turn()) {}
 
   const Tool& tool() const noexcept { return tool_; }
+  /// At the start; its translation is the reference point.
+  const Pose<Scalar>& pose() const noexcept { return pose_; }
   const Vector& origin() const noexcept { return pose_.translation; }
   const Twist<Scalar>& motion() const noexcept { return motion_; }
   Scalar radius() const noexcept { return radius_; }
@@ -75,8 +77,7 @@ class MovingTool {
   }
   /// Least height of the tool, or of its core, above its reference point along any vector in the tool frame [m].
   Scalar lowest_in_tool(const Vector& normal_tool) const noexcept {
-    const int vertex = tool_.support(Vector(-normal_tool));
-    return normal_tool.dot(tool_.vertex(vertex) - reference_);
+    return -highest_along(tool_, Vector(-normal_tool)) - normal_tool.dot(reference_);
   }
 
   /// Bound on how far a tool point strays from its chord along a fixed world normal over a part of the motion [m].

@@ -16,6 +16,7 @@ struct Passage {
   Scalar time = Scalar(1);
   bool is_blocked = false;
   Vector3<Scalar> normal = Vector3<Scalar>::Zero();  ///< world normal of a plane that holds at both ends, or zero
+  WitnessFeatures features;                          ///< of the last query, or those given
 };
 
 /// A triangle as the tool passes it.
@@ -135,14 +136,14 @@ Passage<typename Tool::Scalar> pass(const MovingTool<Tool>& moving, const Passed
   Plane plane{triangle.normal, is_known ? slack_at(triangle.normal, start) : Scalar(0)};
   bool touches = is_known && plane.slack < 2 * clearance.touching;
   if (is_known && !(detail::held_part(moving, corners, plane, start, end, clearance.required(plane.slack), true) < Scalar(1))) {
-    return {end.time, false, plane.normal};
+    return {end.time, false, plane.normal, warm};
   }
   Plane last = query(end, touches);
   if (last.slack > -std::numeric_limits<Scalar>::infinity()) {
     const Scalar known = std::max(slack_at(last.normal, start), is_known ? plane.slack : Scalar(0));
     const Scalar required = clearance.required(std::max(known, Scalar(0)));
     if (!(detail::held_part(moving, corners, last, end, start, required, false) < Scalar(1))) {
-      return {end.time, false, last.normal};
+      return {end.time, false, last.normal, warm};
     }
   }
   if (!is_known) {
@@ -151,7 +152,7 @@ Passage<typename Tool::Scalar> pass(const MovingTool<Tool>& moving, const Passed
     if (touches) last = query(end, true);
   }
   const Scalar required = clearance.required(plane.slack);
-  if (detail::turning_plane_holds(moving, corners, plane, start, last, end, required)) return {end.time, false, last.normal};
+  if (detail::turning_plane_holds(moving, corners, plane, start, last, end, required)) return {end.time, false, last.normal, warm};
   const Scalar length = moving.length() * end.time;
   const Scalar resolution = triangle.is_exact ? clearance.resolution : std::max(clearance.resolution, length / 16);
   const int maximum_steps = triangle.is_exact ? 24 : 10;
@@ -165,14 +166,14 @@ Passage<typename Tool::Scalar> pass(const MovingTool<Tool>& moving, const Passed
       const MotionFrame<Scalar> near_end = moving.frame_at(frame.time + shorter);
       advance = std::max(advance, shorter * detail::held_part(moving, corners, plane, frame, near_end, required, true));
     }
-    if (!(advance < whole)) return {end.time, false, last.normal};
+    if (!(advance < whole)) return {end.time, false, last.normal, warm};
     const bool is_short = advance * moving.length() < resolution;
     frame = moving.frame_at(frame.time + advance);
     if (is_short) break;
     plane = query(frame, true);
-    if (detail::turning_plane_holds(moving, corners, plane, frame, last, end, required)) return {end.time, false, last.normal};
+    if (detail::turning_plane_holds(moving, corners, plane, frame, last, end, required)) return {end.time, false, last.normal, warm};
   }
-  return {frame.time, true, plane.normal};
+  return {frame.time, true, plane.normal, warm};
 }
 
 }  // namespace feeler

@@ -7,6 +7,7 @@
 
 #include "feeler/core/scalar.hpp"
 #include "feeler/proximity/clearance.hpp"
+#include "feeler/proximity/feature_cache.hpp"
 #include "feeler/proximity/motion.hpp"
 
 namespace feeler {
@@ -18,30 +19,35 @@ namespace feeler {
 template <class Scalar>
 struct PlaneOnMotion {
   Vector3<Scalar> normal;
-  Scalar start;  // height at the start, time 0
-  Scalar least;  // below which it does not come
+  Scalar start = Scalar(0);  // height at the start, time 0
+  Scalar least = Scalar(0);  // below which it does not come
+  Scalar last = Scalar(0);   // height at the end
 
   template <class Moving>
   void begin(const Moving& moving, const MotionFrame<Scalar>& frame) noexcept {
     start = moving.lowest(normal, frame);
   }
+  /// Begins a motion where the last one ended, a shift away from where that began.
+  void go_on(const Vector3<Scalar>& shift) noexcept { start = last - normal.dot(shift); }
   template <class Moving>
   void end(const Moving& moving, const MotionFrame<Scalar>& frame) noexcept {
     using std::sqrt;
-    const Scalar end = moving.lowest(normal, frame), sagitta = moving.sagitta(normal, frame.time);
-    const Scalar difference = start < end ? end - start : start - end;
+    last = moving.lowest(normal, frame);
+    const Scalar sagitta = moving.sagitta(normal, frame.time);
+    const Scalar difference = start < last ? last - start : start - last;
     Scalar slack(0);
     if (difference < 4 * sagitta) {
       const Scalar root = sqrt(sagitta) - difference / (4 * sqrt(sagitta));
       slack = root * root;
     }
-    least = (start < end ? start : end) - slack;
+    least = (start < last ? start : last) - slack;
   }
 };
 
-/// World normals of separating planes, from tick to tick, and their limits over the motion at hand.
+/// World normals of separating planes, from tick to tick, and their limits over the motion at hand; and where queries about triangles that
+/// none of them passed may start.
 ///
-/// A plane with normal n parts the tool from every y with n·y ≤ limit over the whole motion.
+/// A plane with normal n parts the tool from every y with n·y ≤ limit over the whole motion. A cache belongs to one tool and one mesh.
 /// Against a wall that the tool touches no plane keeps that distance; there `parts_closely` asks for no more than there was at the start.
 template <class ScalarType>
 class PlaneCache {
@@ -53,7 +59,13 @@ class PlaneCache {
   const Vector3<Scalar>& normal(int i) const noexcept { return planes_[index(i)].normal; }
   Scalar limit(int i) const noexcept { return planes_[index(i)].limit; }
   void count_hit(int i) noexcept { ++planes_[index(i)].hits; }
-  void clear() noexcept { size_ = 0; }
+  void clear() noexcept {
+    size_ = 0;
+    knows_heights_ = false;
+    features_.clear();
+  }
+  /// Of the triangles that no plane passed.
+  FeatureCache& features() noexcept { return features_; }
 
   /// Adds a plane in place of the least useful one and finds its limit; returns its position.
   template <class Moving>
@@ -80,16 +92,26 @@ class PlaneCache {
     return slack >= -2 * clearance.allowance && slack >= clearance.required(plane.start - height);
   }
 
-  /// Finds the heights at the start of a motion.
+  /// Finds the heights at the start of a motion; they are known where the last one ended.
   template <class Moving>
   void begin(const Moving& moving, const MotionFrame<Scalar>& start) noexcept {
-    for (int i = 0; i < size_; ++i) planes_[index(i)].begin(moving, start);
+    const Pose<Scalar>& pose = moving.pose();
+    const bool goes_on = knows_heights_ && pose.translation == end_.translation && pose.rotation.coeffs() == end_.rotation.coeffs();
+    const auto begin_plane = [&](PlaneOnMotion<Scalar>& plane) { goes_on ? plane.go_on(shift_) : plane.begin(moving, start); };
+    for (int i = 0; i < size_; ++i) begin_plane(planes_[index(i)]);
+    for (auto& side : sides_) begin_plane(side);
   }
   /// Finds the limits for a motion that ends at a frame, and may have ended later before.
   template <class Moving>
   void end(const Moving& moving, const MotionFrame<Scalar>& end, Scalar kept) noexcept {
     for (int i = 0; i < size_; ++i) planes_[index(i)].end(moving, end, kept);
+    for (auto& side : sides_) side.end(moving, end);
+    end_ = moving.pose_at(end.time);
+    shift_ = end.shift;
+    knows_heights_ = true;
   }
+  /// The sides of a box along the world axes around the motion, −x x −y y −z z: their normals point into it.
+  const std::array<PlaneOnMotion<Scalar>, 6>& sides() const noexcept { return sides_; }
   /// Halves the hits and brings the most useful planes to the front.
   void age() noexcept {
     for (int i = 0; i < size_; ++i) planes_[index(i)].hits /= 2;
@@ -113,8 +135,19 @@ class PlaneCache {
     }
   };
 
+  static std::array<PlaneOnMotion<Scalar>, 6> sides_of_box() noexcept {
+    std::array<PlaneOnMotion<Scalar>, 6> sides;
+    for (std::size_t i = 0; i < sides.size(); ++i) sides[i].normal = Vector3<Scalar>::Unit(int(i / 2)) * Scalar(i % 2 == 0 ? 1 : -1);
+    return sides;
+  }
+
   int size_ = 0;
   std::array<Plane, capacity> planes_;
+  std::array<PlaneOnMotion<Scalar>, 6> sides_ = sides_of_box();
+  bool knows_heights_ = false;  // of the tool at the end of the last motion
+  Pose<Scalar> end_;            // there
+  Vector3<Scalar> shift_;       // to there from where it began [m]
+  FeatureCache features_;
 };
 
 }  // namespace feeler

@@ -25,8 +25,7 @@ struct SeparatingAxis {
 template <ConvexTool Tool>
 typename Tool::Scalar separation_along(const Tool& tool, const Matrix3<typename Tool::Scalar>& triangle,
                                        const Vector3<typename Tool::Scalar>& normal) noexcept {
-  const int vertex = tool.support(Vector3<typename Tool::Scalar>(-normal));
-  return normal.dot(tool.vertex(vertex)) - (normal.transpose() * triangle).maxCoeff();
+  return -highest_along(tool, Vector3<typename Tool::Scalar>(-normal)) - (normal.transpose() * triangle).maxCoeff();
 }
 
 template <SweptTool Tool>

@@ -85,7 +85,7 @@ class Sweep {
       if (work > limit) return give_up(result);
     }
     const bool is_whole = traverse(mesh, moving, work, limit, [&](int triangle, const Matrix3<Scalar>& corners) {
-      if (!is_among(triangle, known)) examine(triangle, {corners, Vector::Zero(), {}, false}, clearance_, moving, result, work);
+      if (!is_among(triangle, known)) examine(triangle, {corners, Vector::Zero(), planes_.features().recall(triangle), false}, clearance_, moving, result, work);
       return true;
     });
     return is_whole ? result : give_up(result);
@@ -124,10 +124,6 @@ class Sweep {
     extent_ = Scalar(mesh.bounds().diagonal().norm());
     planes_.age();
     planes_.begin(moving, start_);
-    for (std::size_t i = 0; i < sides_.size(); ++i) {
-      sides_[i].normal = Vector::Unit(int(i / 2)) * Scalar(i % 2 == 0 ? 1 : -1);
-      sides_[i].begin(moving, start_);
-    }
     set_end(moving, until);
   }
 
@@ -191,7 +187,10 @@ class Sweep {
                SweepResult<Scalar>& result, int& work) noexcept {
     const Passage<Scalar> passage = pass(moving, state, start_, end_, clearance, work);
     if (!passage.is_blocked) {
-      if (passage.normal.squaredNorm() > Scalar(0) && !state.is_exact) add_plane(passage.normal, moving);
+      if (passage.normal.squaredNorm() > Scalar(0) && !state.is_exact) {
+        add_plane(passage.normal, moving);
+        planes_.features().remember(triangle, passage.features);
+      }
       return;
     }
     if (result.blockers.full()) {
@@ -210,10 +209,9 @@ class Sweep {
   void set_end(const MovingTool<Tool>& moving, Scalar time) noexcept {
     end_ = moving.frame_at(time);
     planes_.end(moving, end_, clearance_.kept);
-    for (auto& side : sides_) side.end(moving, end_);
     for (std::size_t k = 0; k < 3; ++k) {
-      const Scalar below = sides_[2 * k].least - clearance_.kept + to_boxes_[int(k)];
-      const Scalar above = sides_[2 * k + 1].least - clearance_.kept - to_boxes_[int(k)];
+      const Scalar below = planes_.sides()[2 * k].least - clearance_.kept + to_boxes_[int(k)];
+      const Scalar above = planes_.sides()[2 * k + 1].least - clearance_.kept - to_boxes_[int(k)];
       lower_[k] = round_down(below, below);
       upper_[k] = -round_down(above, above);
     }
@@ -282,7 +280,6 @@ class Sweep {
   Scalar extent_ = Scalar(0);  // of the mesh [m]
   Frame start_;
   Frame end_;
-  std::array<PlaneOnMotion<Scalar>, 6> sides_;  // of a box along the world axes around the motion
   std::array<float, 3> lower_{}, upper_{};
   std::array<BoxPlanes, std::size_t(PlaneCache<Scalar>::capacity / lanes)> box_planes_;
 };

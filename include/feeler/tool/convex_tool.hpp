@@ -44,6 +44,17 @@ concept ConvexTool = RealScalar<typename T::Scalar> &&
                        { tool.face_axis(i) } noexcept -> std::convertible_to<Vector3<typename T::Scalar>>;
                      };
 
+/// The support function of a tool, max direction · x over its points x, of a swept tool over its core [m]. A tool that finds it faster than the
+/// vertex has a member `highest(direction)`.
+template <ConvexTool Tool>
+typename Tool::Scalar highest_along(const Tool& tool, const Vector3<typename Tool::Scalar>& direction) noexcept {
+  if constexpr (requires { tool.highest(direction); }) {
+    return tool.highest(direction);
+  } else {
+    return direction.dot(Vector3<typename Tool::Scalar>(tool.vertex(tool.support(direction))));
+  }
+}
+
 /// The same shape with another scalar: `tool.template cast<Other>()`.
 template <class Tool, class Other>
 using ToolCast = decltype(std::declval<const Tool&>().template cast<Other>());

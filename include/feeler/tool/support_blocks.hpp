@@ -58,6 +58,20 @@ class SupportBlocks {
     return best_block * block_size + index;
   }
 
+  /// max direction · point: the support function of their hull.
+  Scalar highest(const Vector3<Scalar>& direction) const noexcept {
+    using Block = Eigen::Array<Scalar, block_size, 1>;
+    using BlockMap = Eigen::Map<const Block>;
+    const Scalar x = direction.x(), y = direction.y(), z = direction.z();
+    const auto heights = [&](int block) {
+      const Scalar* data = coordinates_.data() + block * 3 * block_size;
+      return Block(BlockMap(data) * x + BlockMap(data + block_size) * y + BlockMap(data + 2 * block_size) * z);
+    };
+    Block best = heights(0);
+    for (int b = 1; b < block_count_; ++b) best = best.max(heights(b));
+    return best.maxCoeff();
+  }
+
  private:
   static std::size_t offset(int i, int k) noexcept {
     const auto index = unsigned(i);  // divides by a shift
