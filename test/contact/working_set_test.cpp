@@ -22,7 +22,8 @@ BOOST_AUTO_TEST_CASE(a_triangle_is_found_where_it_was_added_and_starts_with_noth
     BOOST_TEST(pair.normal.isZero(0));
     BOOST_TEST(pair.features.size == 0);
     BOOST_TEST(pair.idle_ticks == 0);
-    BOOST_TEST(!pair.has_rows);
+    BOOST_TEST((pair.state == feeler::PairState::left_out));
+    BOOST_TEST(!pair.has_plane());
     BOOST_TEST(!pair.keeps_ghost);
   }
   BOOST_TEST(set.find(0, 110) == -1);

@@ -72,8 +72,8 @@ class ContactPatch {
     normal_ = closest.normal;
     near_.clear();
     measure_triangle();
-    // Beyond the band one row is enough: a step that comes near is linearised again.
-    if (closest.distance <= band_) {
+    // Farther away one row is enough: a step that comes near is linearised again.
+    if (closest.distance <= band_ / 4) {
       gather_near_vertices(closest);
       add_vertices_on_face(rows);
       if (near_.size() > 1) add_edges(rows);

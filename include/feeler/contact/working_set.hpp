@@ -7,6 +7,13 @@
 
 namespace feeler {
 
+/// What became of a pair in the last linearisation.
+enum class PairState : unsigned char {
+  left_out,  ///< not measured: too far to matter, or new
+  ghost,     ///< without rows, as a neighbour is nearer
+  has_rows,
+};
+
 /// A triangle near a piece of the tool and what is known of the two at the last certified pose.
 template <class Scalar>
 struct WorkingPair {
@@ -14,15 +21,23 @@ struct WorkingPair {
   int triangle = -1;
   Matrix3<Scalar> corners_world;  ///< a corner a column [m]
   WitnessFeatures features;       ///< where the last query ended
+  Vector3<Scalar> last_normal = Vector3<Scalar>::Zero();  ///< world normal that it found
   Vector3<Scalar> normal = Vector3<Scalar>::Zero();  ///< world normal that separates at the certified pose, or zero
   Scalar slack = Scalar(0);                          ///< separation there [m]
   Scalar moved = Scalar(0);                          ///< length of motions since that was measured [m]
   int idle_ticks = 0;       ///< ticks since it held the tool or blocked a motion
-  bool has_rows = false;    ///< rows of it took part in the last step
+  PairState state = PairState::left_out;
   bool is_ghost = false;    ///< at the certified pose a neighbour was nearer, and its plane means nothing
   bool is_tight = false;    ///< there was no room for the margin at its last step
   bool keeps_ghost = false; ///< it blocked although its row looked like a ghost: give it a row all the same
 
+  bool has_plane() const noexcept { return normal.squaredNorm() > Scalar(0); }
+  /// @param separation  along the normal at the certified pose [m]
+  void set_plane(const Vector3<Scalar>& normal_world, Scalar separation) noexcept {
+    normal = normal_world;
+    slack = separation;
+    moved = Scalar(0);
+  }
   /// Whether the separation is certainly more than a distance [m].
   bool is_beyond(Scalar distance) const noexcept { return slack - moved > distance; }
 };
@@ -38,6 +53,8 @@ class WorkingSet {
   int size() const noexcept { return pairs_.size(); }
   Pair& operator[](int i) noexcept { return pairs_[i]; }
   const Pair& operator[](int i) const noexcept { return pairs_[i]; }
+  Pair* begin() noexcept { return pairs_.begin(); }
+  Pair* end() noexcept { return pairs_.end(); }
   bool full() const noexcept { return pairs_.full(); }
   void clear() noexcept { pairs_.clear(); }
 

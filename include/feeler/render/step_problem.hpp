@@ -39,6 +39,19 @@ class StepProblem {
     is_tight_[index(rows_.size() - 1)] = is_tight;
     return true;
   }
+  /// Moves the rows to where a motion from the pose of linearisation ends, less those kept and those of which `update(row, certified gap,
+  /// is tight)` is false; it sets the two as `add` has them.
+  template <class Update>
+  void carry(const Twist<Scalar>& motion, const Update& update) noexcept {
+    const int count = rows_.size() - kept_;
+    clear();
+    for (int k = 0; k < count; ++k) {
+      const Row row = rows_[k].carried(motion);
+      Scalar certified_gap;
+      bool is_tight;
+      if (update(row, certified_gap, is_tight)) add(row, certified_gap, is_tight);
+    }
+  }
   /// Appends a row that held where the motion began, to hold where it ends; no other row may follow.
   bool keep(const Row& row, Scalar certified_gap) noexcept {
     if (!add(row, certified_gap, false)) return false;
@@ -82,15 +95,18 @@ class StepProblem {
   /// Room that the last step left to a row before it would stop it, to first order [m]; 0 for an active one.
   Scalar room_after(int k) const noexcept { return problem_.rows[index(k)].dot(solution_.step) - problem_.bounds[index(k)]; }
 
-  /// The step that minimises f with its own Hessian or, where contacts hold, with the Hessian of the Lagrangian.
-  const Vector6<Scalar>& solve(const Metric<Scalar>& metric, const Twist<Scalar>& graphic_from_haptic,
-                               Scalar margin) noexcept {
+  /// The step that minimises f with its own Hessian.
+  const Vector6<Scalar>& project(const Metric<Scalar>& metric, const Twist<Scalar>& graphic_from_haptic, Scalar margin) noexcept {
     load_rows(margin);
     problem_.hessian = metric.hessian({});
     problem_.gradient = metric.gradient(graphic_from_haptic);
     solve_relaxing(margin);
     is_free_ = solution_.active.empty();
     is_newton_ = true;
+    return solution_.step;
+  }
+  /// After `project`: where contacts hold, the step with the Hessian of the Lagrangian.
+  const Vector6<Scalar>& bend(const Metric<Scalar>& metric, const Twist<Scalar>& graphic_from_haptic, Scalar margin) noexcept {
     if (is_free_) return solution_.step;
     projection_ = solution_;
     set_lagrangian_hessian(metric, graphic_from_haptic);
@@ -99,9 +115,9 @@ class StepProblem {
     if (solution_.active.empty()) solution_ = projection_;
     return solution_.step;
   }
-  /// Whether no contact holds the tool: the last `solve` was not stopped by any row.
+  /// Whether no contact holds the tool: the last `project` was not stopped by any row.
   bool is_free() const noexcept { return is_free_; }
-  /// Whether the last `solve` had the Hessian of the Lagrangian whole: else steps shrink by a ratio only, and a short one is not the last.
+  /// Whether the last `bend` had the Hessian of the Lagrangian whole: else steps shrink by a ratio only, and a short one is not the last.
   bool is_newton() const noexcept { return is_newton_; }
 
   /// The smallest step that meets the rows.

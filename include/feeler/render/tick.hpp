@@ -40,7 +40,7 @@ struct Tick {
 
   int iterations = 0;  ///< linearisations solved
   int rows = 0;        ///< rows of the last optimisation
-  int work = 0;        ///< distance queries, in the unit of `Settings::work_budget`
+  int work = 0;        ///< in the unit of `Settings::work_budget`
 
   bool converged() const noexcept { return status == Status::converged; }
 };

@@ -1,0 +1,306 @@
+// The working set and its rows, at one pose at a time: measured only where a step may meet them, and only where the tool has moved.
+#pragma once
+
+#include "feeler/contact/contact_patch.hpp"
+#include "feeler/contact/working_set.hpp"
+#include "feeler/core/scalar.hpp"
+#include "feeler/object/surface_walk.hpp"
+#include "feeler/object/triangle_normal.hpp"
+#include "feeler/proximity/separation.hpp"
+#include "feeler/proximity/sweep.hpp"
+#include "feeler/render/kept_contacts.hpp"
+#include "feeler/render/rendered_scene.hpp"
+#include "feeler/render/step_problem.hpp"
+#include "feeler/render/tick.hpp"
+
+namespace feeler {
+
+/// The pairs near the tool, linearised.
+///
+/// A motion is linearised where it starts, at a certified pose (`start_carried`, `start_measured`), and again where its steps end (`move_to`).
+/// A pair that its last plane parts from the tool by some margins is left out, until a step would take the tool across that plane
+/// (`add_crossed`). Where a motion starts no farther than a step tolerance from where the last one was linearised, its rows are carried
+/// there: the features that meet are the same.
+/// @cost  noexcept, no allocation; `tick.work` grows by one for each distance query, and for every few planes
+template <RigidTool ToolType, QpSolver Solver>
+class Linearisation {
+ public:
+  using Scene = RenderedScene<ToolType>;
+  using Scalar = typename Scene::Scalar;
+  using MeshScalar = typename Scene::MeshScalar;
+  using Piece = typename Scene::Piece;
+  using Row = ContactRowOf<Piece>;
+  static constexpr bool is_convex = maximum_pieces<ToolType> == 1;
+  using Pairs = WorkingSet<Scalar, is_convex ? 48 : 256>;
+  using Problem = StepProblem<Solver, is_convex ? 128 : 256, Row>;
+
+  void clear() noexcept {
+    pairs_.clear();
+    has_rows_ = false;
+  }
+
+  Pairs& pairs() noexcept { return pairs_; }
+  const Pairs& pairs() const noexcept { return pairs_; }
+  Problem& problem() noexcept { return problem_; }
+  const Problem& problem() const noexcept { return problem_; }
+  /// Whether nothing was near.
+  bool is_empty() const noexcept { return problem_.row_count() == 0 && !leaves_out_pairs_; }
+
+  /// Rows where a motion starts, and the planes that its certificate starts from.
+  /// @param pose   certified
+  /// @param reach  what is farther from the tool cannot stop the next step [m]
+  void start_measured(const Scene& scene, const Pose<Scalar>& pose, Scalar reach, Tick<MeshScalar>& tick) noexcept {
+    start_at(pose, reach);
+    measure_near_pairs(scene, tick);
+  }
+
+  /// The same with the rows of the last linearisation; false, and nothing is measured, where that was not near or a plane of it does not hold.
+  bool start_carried(const Scene& scene, const Pose<Scalar>& pose, Scalar reach, Tick<MeshScalar>& tick) noexcept {
+    if (!has_rows_ || problem_.rests_on_kept()) return false;  // rows of the features that the tool was to leave
+    const Twist<Scalar> motion = scene.idle_turns().motion_between(pose_, pose);
+    if (scene.length_of(motion, pose) > Scalar(scene.settings().step_tolerance)) return false;
+    start_at(pose, reach);
+    for (Pair& pair : pairs_) {
+      if (pair.state == PairState::left_out) continue;
+      if (!holds_at_start(scene, pair, pair.last_normal, scene.clearance().kept, tick)) return false;
+      pair.is_ghost = pair.state == PairState::ghost;
+    }
+    problem_.carry(motion, [&](const Row& row, Scalar& certified_gap, bool& is_tight) {
+      const int i = pairs_.find(row.piece, row.triangle);
+      if (i < 0 || pairs_[i].state == PairState::left_out) return false;
+      certified_gap = pairs_[i].slack;
+      is_tight = pairs_[i].is_tight;
+      keep_if_touching(scene, row, pairs_[i]);
+      return true;
+    });
+    for (Pair& pair : pairs_) {
+      if (pair.state == PairState::left_out) measure_if_near(scene, pair, tick);
+    }
+    has_rows_ = true;
+    tick.rows = problem_.row_count();
+    return true;
+  }
+
+  /// Rows where a step ended.
+  /// @param assumes_valleys  as `ContactPatch` has it
+  void move_to(const Scene& scene, const Pose<Scalar>& pose, bool assumes_valleys, Tick<MeshScalar>& tick) noexcept {
+    put_at(pose);
+    is_at_start_ = false;
+    assumes_valleys_ = assumes_valleys;
+    measure_near_pairs(scene, tick);
+  }
+
+  /// Adds the rows of pairs left out whose planes a step crosses; false if there are none.
+  bool add_crossed(const Scene& scene, const Twist<Scalar>& step, Tick<MeshScalar>& tick) noexcept {
+    if (!leaves_out_pairs_) return false;
+    const Pose<Scalar> end = scene.idle_turns().moved(pose_, step);
+    const Matrix3<Scalar> axes = end.rotation.toRotationMatrix();
+    bool adds = false;
+    for (Pair& pair : pairs_) {
+      if (pair.state != PairState::left_out || pair.is_beyond(reach_)) continue;
+      if (slack_along(scene, pair, pair.normal, end, axes, tick) > scene.margin()) continue;
+      measure(scene, pair, tick);
+      adds = true;
+    }
+    tick.rows = problem_.row_count();
+    return adds;
+  }
+
+  /// Before rows of the start are kept: none is in the problem.
+  void release_kept() noexcept { kept_.release(); }
+  /// Adds the rows of the start that a motion from there would break; false if it breaks none.
+  bool keep_broken(const Scene& scene, const Twist<Scalar>& motion) noexcept {
+    return kept_.keep_broken(scene.idle_turns().motion_between(start_, pose_), motion, scene.margin(), problem_);
+  }
+
+  /// Remembers which pairs had no room for the margin.
+  void note_tight_pairs() noexcept {
+    for (Pair& pair : pairs_) pair.is_tight = false;
+    for (int k = 0; k < problem_.row_count(); ++k) {
+      if (problem_.is_relaxed(k)) pairs_[pairs_.find(problem_.row(k).piece, problem_.row(k).triangle)].is_tight = true;
+    }
+  }
+
+  /// Takes the triangles that the contacts of a solution pass over to into the working set: the row of one they have left hides them.
+  void learn_passed(const Scene& scene, Tick<MeshScalar>& tick) noexcept {
+    const auto step = Twist<Scalar>::from_vector(problem_.solution().step);
+    for (const auto& active : problem_.solution().active) {
+      const Row& row = problem_.row(active.row);
+      if (row.kind != FeaturePair::vertex_face || problem_.is_relaxed(active.row) || pairs_.full()) continue;
+      const Vector3<Scalar> point = pose_.translation + step.linear + row.carried(step).arm;
+      const int triangle = triangle_under(scene.object(), row.triangle, point);
+      if (triangle < 0 || pairs_.find(row.piece, triangle) >= 0) continue;
+      Pair& pair = take_in(scene, row.piece, triangle);
+      const Matrix3<Scalar> axes = start_.rotation.toRotationMatrix();
+      const auto closest = closest_points(scene, scene.in_tool(pair.corners_world, start_, axes), axes, pair, true);
+      ++tick.work;
+      pair.features = closest.features;
+      pair.set_plane(axes * closest.normal, closest.distance);
+    }
+  }
+
+  /// Takes what blocked a motion into the working set; false when all of it was there already with rows of its own.
+  bool admit(const Scene& scene, const SweepResult<Scalar>& result) noexcept {
+    bool is_new = false;
+    for (const auto& blocker : result.blockers) {
+      const int i = pairs_.find(blocker.piece, blocker.triangle);
+      if (i < 0) {
+        take_in(scene, blocker.piece, blocker.triangle);
+        is_new = true;
+        continue;
+      }
+      Pair& pair = pairs_[i];
+      pair.idle_ticks = 0;
+      if (pair.state != PairState::has_rows) is_new = true;
+      if (pair.state == PairState::ghost) pair.keeps_ghost = true;
+    }
+    return is_new;
+  }
+
+ private:
+  using Pair = typename Pairs::Pair;
+
+  static constexpr int planes_per_work = 16;
+
+  void put_at(const Pose<Scalar>& pose) noexcept {
+    pose_ = pose;
+    axes_ = pose.rotation.toRotationMatrix();
+    leaves_out_pairs_ = false;
+  }
+
+  void start_at(const Pose<Scalar>& pose, Scalar reach) noexcept {
+    put_at(pose);
+    start_ = pose;
+    is_at_start_ = true;
+    assumes_valleys_ = true;
+    reach_ = reach;
+    has_rows_ = false;
+    kept_.clear();
+  }
+
+  void measure_near_pairs(const Scene& scene, Tick<MeshScalar>& tick) noexcept {
+    problem_.clear();
+    for (Pair& pair : pairs_) measure_if_near(scene, pair, tick);
+    has_rows_ = true;
+    tick.rows = problem_.row_count();
+  }
+
+  void measure_if_near(const Scene& scene, Pair& pair, Tick<MeshScalar>& tick) noexcept {
+    if (is_far(scene, pair, tick)) {
+      pair.state = PairState::left_out;
+      leaves_out_pairs_ = true;
+    } else {
+      measure(scene, pair, tick);
+    }
+  }
+
+  /// Whether the plane of a pair parts it from the tool by more than what touches.
+  bool is_far(const Scene& scene, Pair& pair, Tick<MeshScalar>& tick) noexcept {
+    if (pair.is_beyond(reach_)) return true;
+    if (!pair.has_plane()) return false;
+    const Scalar enough = touch_margins * scene.margin();
+    if (is_at_start_) return holds_at_start(scene, pair, pair.normal, enough, tick);
+    return slack_along(scene, pair, pair.normal, pose_, axes_, tick) > enough;
+  }
+
+  /// Whether a plane parts a pair where the motion starts by more than a distance; then it is the pair's.
+  bool holds_at_start(const Scene& scene, Pair& pair, const Vector3<Scalar>& normal, Scalar least, Tick<MeshScalar>& tick) noexcept {
+    const Scalar slack = slack_along(scene, pair, normal, pose_, axes_, tick);
+    if (!(slack > least)) return false;
+    pair.set_plane(normal, slack);
+    return true;
+  }
+
+  /// Separation of a pair along a world normal at a pose with the axes given [m].
+  Scalar slack_along(const Scene& scene, const Pair& pair, const Vector3<Scalar>& normal, const Pose<Scalar>& pose, const Matrix3<Scalar>& axes,
+                     Tick<MeshScalar>& tick) noexcept {
+    if (++planes_ >= planes_per_work) {
+      planes_ = 0;
+      ++tick.work;
+    }
+    const Piece& piece = scene.piece(pair.piece);
+    const Vector3<Scalar> normal_tool = axes.transpose() * normal;
+    const Scalar lowest = -highest_along(piece, Vector3<Scalar>(-normal_tool)) - normal_tool.dot(scene.reference()) - swept_radius(piece);
+    return lowest - (normal.transpose() * (pair.corners_world.colwise() - pose.translation)).maxCoeff();
+  }
+
+  /// Measures a pair where the rows are, and adds its rows.
+  void measure(const Scene& scene, Pair& pair, Tick<MeshScalar>& tick) noexcept {
+    const Matrix3<Scalar> corners = scene.in_tool(pair.corners_world, pose_, axes_);
+    const auto closest = closest_points(scene, corners, axes_, pair, is_at_start_);
+    ++tick.work;
+    pair.features = closest.features;
+    pair.last_normal = axes_ * closest.normal;
+    if (is_at_start_) pair.set_plane(pair.last_normal, closest.distance);
+    ContactPatch<Piece, MeshScalar> patch(scene.piece(pair.piece), scene.incidence(pair.piece), scene.object(), axes_, scene.reference(),
+                                          scene.trust_radius() / 4, assumes_valleys_);
+    pair.state = patch.find(pair.triangle, corners, closest, pair.keeps_ghost, patch_rows_) ? PairState::has_rows : PairState::ghost;
+    if (is_at_start_) pair.is_ghost = pair.state == PairState::ghost;
+    for (Row& row : patch_rows_) {
+      row.piece = pair.piece;
+      row.triangle = pair.triangle;
+      problem_.add(row, pair.slack, pair.is_tight);
+      if (is_at_start_) keep_if_touching(scene, row, pair);
+    }
+  }
+
+  /// A contact so close that any motion may break it is kept; where there is no clearance at all, rounding decides which is.
+  void keep_if_touching(const Scene& scene, const Row& row, const Pair& pair) noexcept {
+    const bool touches = row.gap > scene.margin() / 1000 && row.gap < touch_margins * scene.margin();
+    if (touches && !pair.is_tight && !row.is_assumed) kept_.add(row, pair.slack);
+  }
+
+  /// Closest points of a pair, with the corners in the tool frame of a pose with the axes given. On the way the tool may overlap it; then the
+  /// plane it had at the start says which features meet.
+  static ClosestPoints<Scalar> closest_points(const Scene& scene, const Matrix3<Scalar>& corners, const Matrix3<Scalar>& axes, const Pair& pair,
+                                              [[maybe_unused]] bool is_at_start) noexcept {
+    const Piece& piece = scene.piece(pair.piece);
+    ClosestPoints<Scalar> closest = gjk(piece, corners, pair.features, scene.clearance().touching);
+    if (!closest.is_touching) return closest;
+    if constexpr (!SweptTool<Piece>) {  // whose core touches nothing but on the way, and there by far
+      if (is_at_start || pair.slack < 2 * scene.clearance().touching) {
+        return separation_of_touching(piece, corners, closest, scene.clearance().allowance);
+      }
+    }
+    closest.normal = axes.transpose() * pair.normal;
+    closest.distance = separation_along(piece, corners, closest.normal);
+    if (pair.is_ghost) prefer_own_plane(piece, corners, scene.clearance().touching, closest);
+    closest.features = {};
+    closest.tool_point = piece.vertex(piece.support(Vector3<Scalar>(-closest.normal)));
+    return closest;
+  }
+
+  /// The plane of a triangle, where it parts the tool from it but for a touch, and better than the one given.
+  static void prefer_own_plane(const Piece& piece, const Matrix3<Scalar>& corners, Scalar touching, ClosestPoints<Scalar>& closest) noexcept {
+    const Vector3<Scalar> normal = triangle_normal<Scalar>(corners.col(0), corners.col(1), corners.col(2));
+    if (normal.isZero()) return;
+    for (const Vector3<Scalar>& own : {normal, Vector3<Scalar>(-normal)}) {
+      const Scalar distance = separation_along(piece, corners, own);
+      if (!(distance > -touching) || !(distance > closest.distance)) continue;
+      closest.normal = own;
+      closest.distance = distance;
+    }
+  }
+
+  Pair& take_in(const Scene& scene, int piece, int triangle) noexcept {
+    return pairs_.add(piece, triangle, scene.object().corners(triangle).template cast<Scalar>());
+  }
+
+  static constexpr int touch_margins = 4;
+
+  Pairs pairs_;
+  Problem problem_;
+  KeptContacts<Row, Problem::row_capacity> kept_;
+  PatchRows<Scalar, Row> patch_rows_;  // of the pair at hand
+  Pose<Scalar> start_;                 // where the motion starts
+  Pose<Scalar> pose_;                  // where the rows are
+  Matrix3<Scalar> axes_;               // there
+  Scalar reach_ = Scalar(0);
+  bool is_at_start_ = false;
+  bool assumes_valleys_ = true;
+  bool has_rows_ = false;          // since the last `clear`
+  bool leaves_out_pairs_ = false;
+  int planes_ = 0;
+};
+
+}  // namespace feeler
