@@ -22,6 +22,13 @@ typename Tool::Scalar radius_about(const Tool& tool, const Vector3<typename Tool
   return sqrt(largest);
 }
 
+/// Least height of a tool, or of its core, above a point along any vector, both in the tool frame [m].
+template <ConvexTool Tool>
+typename Tool::Scalar lowest_above(const Tool& tool, const Vector3<typename Tool::Scalar>& point,
+                                   const Vector3<typename Tool::Scalar>& normal) noexcept {
+  return -highest_along(tool, Vector3<typename Tool::Scalar>(-normal)) - normal.dot(point);
+}
+
 /// Where the tool is at one time of a motion: axes `rotation`, reference point `shift` away from the start [m].
 template <class Scalar>
 struct MotionFrame {
@@ -77,7 +84,7 @@ class MovingTool {
   }
   /// Least height of the tool, or of its core, above its reference point along any vector in the tool frame [m].
   Scalar lowest_in_tool(const Vector& normal_tool) const noexcept {
-    return -highest_along(tool_, Vector(-normal_tool)) - normal_tool.dot(reference_);
+    return lowest_above(tool_, reference_, normal_tool);
   }
 
   /// Bound on how far a tool point strays from its chord along a fixed world normal over a part of the motion [m].

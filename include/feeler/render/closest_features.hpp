@@ -2,7 +2,6 @@
 #pragma once
 
 #include <algorithm>
-#include <array>
 
 #include "feeler/core/status.hpp"
 #include "feeler/render/contact_method.hpp"
@@ -45,7 +44,7 @@ class ClosestFeaturesFollower {
     target_ = target;
     turn_idly(scene, tick);
     const int idle_legs = tick.path.size();
-    linearisation_.pairs().age(longest_idle, 4 * scene.margin(), 4 * scene.trust_radius(), goes_on_);
+    linearisation_.pairs().age(longest_idle, linearisation_.touching(scene), 4 * scene.trust_radius(), goes_on_);
     if (!goes_on_) limits_.reset(scene.trust_radius());
     budget_.begin_tick(scene.settings().work_budget);
     goes_on_ = !advance(scene, tick);

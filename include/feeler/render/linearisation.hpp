@@ -6,6 +6,7 @@
 #include "feeler/core/scalar.hpp"
 #include "feeler/object/surface_walk.hpp"
 #include "feeler/object/triangle_normal.hpp"
+#include "feeler/proximity/motion.hpp"
 #include "feeler/proximity/separation.hpp"
 #include "feeler/proximity/sweep.hpp"
 #include "feeler/render/kept_contacts.hpp"
@@ -43,6 +44,8 @@ class Linearisation {
   const Pairs& pairs() const noexcept { return pairs_; }
   Problem& problem() noexcept { return problem_; }
   const Problem& problem() const noexcept { return problem_; }
+  /// What is nearer touches: any motion may meet it [m].
+  static Scalar touching(const Scene& scene) noexcept { return 4 * scene.margin(); }
   /// Whether nothing was near.
   bool is_empty() const noexcept { return problem_.row_count() == 0 && !leaves_out_pairs_; }
 
@@ -132,10 +135,7 @@ class Linearisation {
       if (triangle < 0 || pairs_.find(row.piece, triangle) >= 0) continue;
       Pair& pair = take_in(scene, row.piece, triangle);
       const Matrix3<Scalar> axes = start_.rotation.toRotationMatrix();
-      const auto closest = closest_points(scene, scene.in_tool(pair.corners_world, start_, axes), axes, pair, true);
-      ++tick.work;
-      pair.features = closest.features;
-      pair.set_plane(axes * closest.normal, closest.distance);
+      query(scene, pair, scene.in_tool(pair.corners_world, start_, axes), axes, true, tick);
     }
   }
 
@@ -198,9 +198,8 @@ class Linearisation {
   bool is_far(const Scene& scene, Pair& pair, Tick<MeshScalar>& tick) noexcept {
     if (pair.is_beyond(reach_)) return true;
     if (!pair.has_plane()) return false;
-    const Scalar enough = touch_margins * scene.margin();
-    if (is_at_start_) return holds_at_start(scene, pair, pair.normal, enough, tick);
-    return slack_along(scene, pair, pair.normal, pose_, axes_, tick) > enough;
+    if (is_at_start_) return holds_at_start(scene, pair, pair.normal, touching(scene), tick);
+    return slack_along(scene, pair, pair.normal, pose_, axes_, tick) > touching(scene);
   }
 
   /// Whether a plane parts a pair where the motion starts by more than a distance; then it is the pair's.
@@ -219,19 +218,14 @@ class Linearisation {
       ++tick.work;
     }
     const Piece& piece = scene.piece(pair.piece);
-    const Vector3<Scalar> normal_tool = axes.transpose() * normal;
-    const Scalar lowest = -highest_along(piece, Vector3<Scalar>(-normal_tool)) - normal_tool.dot(scene.reference()) - swept_radius(piece);
+    const Scalar lowest = lowest_above(piece, scene.reference(), Vector3<Scalar>(axes.transpose() * normal)) - swept_radius(piece);
     return lowest - (normal.transpose() * (pair.corners_world.colwise() - pose.translation)).maxCoeff();
   }
 
   /// Measures a pair where the rows are, and adds its rows.
   void measure(const Scene& scene, Pair& pair, Tick<MeshScalar>& tick) noexcept {
     const Matrix3<Scalar> corners = scene.in_tool(pair.corners_world, pose_, axes_);
-    const auto closest = closest_points(scene, corners, axes_, pair, is_at_start_);
-    ++tick.work;
-    pair.features = closest.features;
-    pair.last_normal = axes_ * closest.normal;
-    if (is_at_start_) pair.set_plane(pair.last_normal, closest.distance);
+    const auto closest = query(scene, pair, corners, axes_, is_at_start_, tick);
     ContactPatch<Piece, MeshScalar> patch(scene.piece(pair.piece), scene.incidence(pair.piece), scene.object(), axes_, scene.reference(),
                                           scene.trust_radius() / 4, assumes_valleys_);
     pair.state = patch.find(pair.triangle, corners, closest, pair.keeps_ghost, patch_rows_) ? PairState::has_rows : PairState::ghost;
@@ -244,9 +238,20 @@ class Linearisation {
     }
   }
 
+  /// Closest points of a pair, as `closest_points`, and what is remembered of them.
+  static ClosestPoints<Scalar> query(const Scene& scene, Pair& pair, const Matrix3<Scalar>& corners, const Matrix3<Scalar>& axes, bool is_at_start,
+                                     Tick<MeshScalar>& tick) noexcept {
+    const auto closest = closest_points(scene, corners, axes, pair, is_at_start);
+    ++tick.work;
+    pair.features = closest.features;
+    pair.last_normal = axes * closest.normal;
+    if (is_at_start) pair.set_plane(pair.last_normal, closest.distance);
+    return closest;
+  }
+
   /// A contact so close that any motion may break it is kept; where there is no clearance at all, rounding decides which is.
   void keep_if_touching(const Scene& scene, const Row& row, const Pair& pair) noexcept {
-    const bool touches = row.gap > scene.margin() / 1000 && row.gap < touch_margins * scene.margin();
+    const bool touches = row.gap > scene.margin() / 1000 && row.gap < touching(scene);
     if (touches && !pair.is_tight && !row.is_assumed) kept_.add(row, pair.slack);
   }
 
@@ -285,8 +290,6 @@ class Linearisation {
   Pair& take_in(const Scene& scene, int piece, int triangle) noexcept {
     return pairs_.add(piece, triangle, scene.object().corners(triangle).template cast<Scalar>());
   }
-
-  static constexpr int touch_margins = 4;
 
   Pairs pairs_;
   Problem problem_;

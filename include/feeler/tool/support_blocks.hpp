@@ -36,16 +36,12 @@ class SupportBlocks {
   /// NaN gives a valid index.
   /// @cost  all dot products, eight at a time; no branch depends on them
   int support(const Vector3<Scalar>& direction) const noexcept {
-    using Block = Eigen::Array<Scalar, block_size, 1>;
-    using BlockMap = Eigen::Map<const Block>;
-    const Scalar* data = coordinates_.data();
-    const Scalar x = direction.x(), y = direction.y(), z = direction.z();
     alignas(64) Scalar dots[max_count];
     Scalar best{};
     int best_block = 0;
-    for (int b = 0; b < block_count_; ++b, data += 3 * block_size) {
+    for (int b = 0; b < block_count_; ++b) {
       Eigen::Map<Block, Eigen::Aligned64> block(dots + b * block_size);
-      block = BlockMap(data) * x + BlockMap(data + block_size) * y + BlockMap(data + 2 * block_size) * z;
+      block = heights(b, direction);
       const Scalar block_best = block.maxCoeff();
       const bool is_better = b == 0 || block_best > best;
       best = is_better ? block_best : best;
@@ -60,19 +56,20 @@ class SupportBlocks {
 
   /// max direction · point: the support function of their hull.
   Scalar highest(const Vector3<Scalar>& direction) const noexcept {
-    using Block = Eigen::Array<Scalar, block_size, 1>;
-    using BlockMap = Eigen::Map<const Block>;
-    const Scalar x = direction.x(), y = direction.y(), z = direction.z();
-    const auto heights = [&](int block) {
-      const Scalar* data = coordinates_.data() + block * 3 * block_size;
-      return Block(BlockMap(data) * x + BlockMap(data + block_size) * y + BlockMap(data + 2 * block_size) * z);
-    };
-    Block best = heights(0);
-    for (int b = 1; b < block_count_; ++b) best = best.max(heights(b));
+    Block best = heights(0, direction);
+    for (int b = 1; b < block_count_; ++b) best = best.max(heights(b, direction));
     return best.maxCoeff();
   }
 
  private:
+  using Block = Eigen::Array<Scalar, block_size, 1>;
+
+  /// The dot products of a block.
+  Block heights(int block, const Vector3<Scalar>& direction) const noexcept {
+    using BlockMap = Eigen::Map<const Block>;
+    const Scalar* data = coordinates_.data() + block * 3 * block_size;
+    return BlockMap(data) * direction.x() + BlockMap(data + block_size) * direction.y() + BlockMap(data + 2 * block_size) * direction.z();
+  }
   static std::size_t offset(int i, int k) noexcept {
     const auto index = unsigned(i);  // divides by a shift
     return (index / block_size * 3 + unsigned(k)) * block_size + index % block_size;
