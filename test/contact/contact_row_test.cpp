@@ -139,6 +139,32 @@ BOOST_AUTO_TEST_CASE(a_carried_row_is_the_row_where_a_motion_ends) {
     }
 }
 
+BOOST_AUTO_TEST_CASE(rows_repeat_each_other_where_gap_and_gradient_are_the_same_but_for_rounding) {
+  std::mt19937 bits(6);
+  for (int i = 0; i < 100; ++i) {
+    const ContactRow<double> row = vertex_face(bits).row;
+    const auto repeats = [&row](double gap, const feeler::Vector3<double>& arm, const feeler::Vector3<double>& tilt) {
+      ContactRow<double> other = row;
+      other.kind = FeaturePair::edge_edge;
+      other.triangle = 7;
+      other.gap += gap;
+      other.arm += arm;
+      other.normal += tilt;
+      return row.repeats(other) && other.repeats(row);
+    };
+    const feeler::Vector3<double> across = row.normal.unitOrthogonal(), none = feeler::Vector3<double>::Zero();
+    BOOST_TEST(repeats(0, none, none));
+    BOOST_TEST(repeats(1e-14 * row.arm.norm(), 1e-14 * row.arm.norm() * across, 1e-14 * across));
+    BOOST_TEST(repeats(0, 0.3 * row.normal, none));  // the same lever
+    BOOST_TEST(!repeats(1e-11, none, none));
+    BOOST_TEST(!repeats(0, 1e-11 * across, none));
+    BOOST_TEST(!repeats(0, none, 1e-11 * across));
+    ContactRow<double> assumed = row;
+    assumed.is_assumed = true;
+    BOOST_TEST(!assumed.repeats(row));
+  }
+}
+
 BOOST_AUTO_TEST_CASE(curvature_is_symmetric) {
   std::mt19937 bits(4);
   for (int i = 0; i < 100; ++i)

@@ -78,6 +78,19 @@ BOOST_AUTO_TEST_CASE(idle_triangles_leave_after_the_longest_time_and_touching_on
   BOOST_TEST(set.size() == 1);
 }
 
+BOOST_AUTO_TEST_CASE(a_touching_pair_that_repeats_others_leaves_like_one_that_does_not_touch) {
+  Set set;
+  set.add(0, 1, Corners::Zero());
+  set.add(0, 2, Corners::Zero());
+  set[0].state = feeler::PairState::has_rows;
+  set[1].state = feeler::PairState::repeats;
+  for (int tick = 0; tick < 8; ++tick) set.age(8, 4e-6, 1e-2, false);
+  BOOST_TEST(set.size() == 2);
+  set.age(8, 4e-6, 1e-2, false);
+  BOOST_TEST(set.size() == 1);
+  BOOST_TEST(set[0].triangle == 1);
+}
+
 BOOST_AUTO_TEST_CASE(a_ghost_that_was_kept_is_kept_on_only_as_long_as_asked) {
   Set set;
   set.add(0, 1, Corners::Zero());

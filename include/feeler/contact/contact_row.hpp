@@ -1,6 +1,8 @@
 // One contact as the optimisation sees it: separation of two features, its gradient and its curvature.
 #pragma once
 
+#include <limits>
+
 #include <Eigen/Geometry>
 
 #include "feeler/core/scalar.hpp"
@@ -41,6 +43,16 @@ struct ContactRow {
   bool outlasts(const Vector6<Scalar>& step) const noexcept {
     const Vector3<Scalar> motion = step.template head<3>() + Vector3<Scalar>(step.template tail<3>()).cross(arm);
     return 16 * (motion - normal.dot(motion) * normal).squaredNorm() <= room * room;
+  }
+
+  /// Whether another row asks the same of a step, but for rounding; how the two bend may differ. Triangles of one plane or with one edge
+  /// have such rows, and so have pieces of a tool with one corner.
+  bool repeats(const ContactRow& other) const noexcept {
+    using std::abs;
+    constexpr Scalar angle = 4096 * std::numeric_limits<Scalar>::epsilon();
+    const Scalar length = angle * arm.norm();
+    return abs(gap - other.gap) <= length && is_assumed == other.is_assumed && (normal - other.normal).squaredNorm() <= angle * angle &&
+           (arm - other.arm).cross(normal).squaredNorm() <= length * length;
   }
 
   /// The row where a motion ends, exactly, if the same features still meet there.

@@ -10,6 +10,7 @@ namespace feeler {
 /// What became of a pair in the last linearisation.
 enum class PairState : unsigned char {
   left_out,  ///< not measured: too far to matter, or new
+  repeats,   ///< without rows, as those of other pairs are the same
   ghost,     ///< without rows, as a neighbour is nearer
   has_rows,
 };
@@ -89,11 +90,11 @@ class WorkingSet {
   }
 
   /// Counts a tick, and drops what has been idle for `longest` ticks or lies more than `reach` away [m]; what lies closer than `touch`
-  /// is not idle.
+  /// is not idle, but for pairs that repeat others.
   void age(int longest, Scalar touch, Scalar reach, bool goes_on) noexcept {
     for (int i = pairs_.size() - 1; i >= 0; --i) {
       Pair& pair = pairs_[i];
-      pair.idle_ticks = pair.slack < touch ? 1 : pair.idle_ticks + 1;
+      pair.idle_ticks = pair.slack < touch && pair.state != PairState::repeats ? 1 : pair.idle_ticks + 1;
       if (!goes_on) pair.keeps_ghost = false;
       if (pair.idle_ticks > longest || (pair.idle_ticks > 1 && pair.slack > reach)) pairs_.swap_remove(i);
     }

@@ -68,14 +68,15 @@ class Linearisation {
       if (!holds_at_start(scene, pair, pair.last_normal, scene.clearance().kept, tick)) return false;
       pair.is_ghost = pair.state == PairState::ghost;
     }
-    problem_.carry(motion, [&](const Row& row, Scalar& certified_gap, bool& is_tight) {
+    const bool are_carried = problem_.carry(motion, [&](const Row& row, Scalar& certified_gap, bool& is_tight) {
       const int i = pairs_.find(row.piece, row.triangle);
-      if (i < 0 || pairs_[i].state == PairState::left_out) return false;
+      if (i < 0 || pairs_[i].state != PairState::has_rows) return false;  // its pair has left, and others may repeat it
       certified_gap = pairs_[i].slack;
       is_tight = pairs_[i].is_tight;
       keep_if_touching(scene, row, pairs_[i]);
       return true;
     });
+    if (!are_carried) return false;
     for (Pair& pair : pairs_) {
       if (pair.state == PairState::left_out) measure_if_near(scene, pair, tick);
     }
@@ -151,7 +152,7 @@ class Linearisation {
       }
       Pair& pair = pairs_[i];
       pair.idle_ticks = 0;
-      if (pair.state != PairState::has_rows) is_new = true;
+      if (pair.state == PairState::left_out || pair.state == PairState::ghost) is_new = true;
       if (pair.state == PairState::ghost) pair.keeps_ghost = true;
     }
     return is_new;
@@ -228,11 +229,13 @@ class Linearisation {
     const auto closest = query(scene, pair, corners, axes_, is_at_start_, tick);
     ContactPatch<Piece, MeshScalar> patch(scene.piece(pair.piece), scene.incidence(pair.piece), scene.object(), axes_, scene.reference(),
                                           scene.trust_radius() / 4, assumes_valleys_);
-    pair.state = patch.find(pair.triangle, corners, closest, pair.keeps_ghost, patch_rows_) ? PairState::has_rows : PairState::ghost;
+    pair.state = patch.find(pair.triangle, corners, closest, pair.keeps_ghost, patch_rows_) ? PairState::repeats : PairState::ghost;
     if (is_at_start_) pair.is_ghost = pair.state == PairState::ghost;
     for (Row& row : patch_rows_) {
       row.piece = pair.piece;
       row.triangle = pair.triangle;
+      if (problem_.repeats(row)) continue;
+      pair.state = PairState::has_rows;
       problem_.add(row, pair.slack, pair.is_tight);
       if (is_at_start_) keep_if_touching(scene, row, pair);
     }

@@ -39,18 +39,24 @@ class StepProblem {
     is_tight_[index(rows_.size() - 1)] = is_tight;
     return true;
   }
-  /// Moves the rows to where a motion from the pose of linearisation ends, less those kept and those of which `update(row, certified gap,
-  /// is tight)` is false; it sets the two as `add` has them.
+  /// Whether a row in the problem asks the same as another.
+  bool repeats(const Row& other) const noexcept {
+    return std::any_of(rows_.begin(), rows_.end(), [&other](const Row& row) { return other.repeats(row); });
+  }
+  /// Moves the rows to where a motion from the pose of linearisation ends, less those kept. `update(row, certified gap, is tight)` sets the two
+  /// as `add` has them; where it is false so is the result, and the problem is to be cleared.
   template <class Update>
-  void carry(const Twist<Scalar>& motion, const Update& update) noexcept {
+  bool carry(const Twist<Scalar>& motion, const Update& update) noexcept {
     const int count = rows_.size() - kept_;
     clear();
     for (int k = 0; k < count; ++k) {
       const Row row = rows_[k].carried(motion);
       Scalar certified_gap;
       bool is_tight;
-      if (update(row, certified_gap, is_tight)) add(row, certified_gap, is_tight);
+      if (!update(row, certified_gap, is_tight)) return false;
+      add(row, certified_gap, is_tight);
     }
+    return true;
   }
   /// Appends a row that held where the motion began, to hold where it ends; no other row may follow.
   bool keep(const Row& row, Scalar certified_gap) noexcept {
