@@ -33,7 +33,7 @@ struct Blocker {
   int piece = 0;  ///< of the tool
 };
 
-/// Result of a sweep: the motion is free of collision on [0, time].
+/// Result of a sweep: the motion is free of collision on [0, time]. That is less than the whole where something blocks, or the work ran low.
 template <class Scalar>
 struct SweepResult {
   static constexpr int blocker_capacity = 24;
@@ -41,6 +41,8 @@ struct SweepResult {
   Scalar time = Scalar(1);
   FixedVector<Blocker<Scalar>, blocker_capacity> blockers;
   bool is_exhausted = false;  ///< the work limit was reached: nothing is certified, time is 0; the blockers found so far are real
+
+  bool is_whole() const noexcept { return blockers.empty() && time >= Scalar(1); }
 };
 
 /// How far a motion that is blocked at a time should be looked at further: past its first blocker, to know the ones just behind it.
@@ -55,7 +57,8 @@ typename Tool::Scalar worth_certifying(typename Tool::Scalar blocked, const Clea
 ///
 /// A box or a triangle passes if one cached plane holds over the whole motion (`PlaneCache`); a triangle that no plane passes is measured
 /// (`pass`), which gives a new plane or a blocker. After an early blocker the motion is shortened for the rest, though not to the
-/// blocker itself: the ones just behind it are better known at once.
+/// blocker itself: the ones just behind it are better known at once. Where the work runs low it is shortened too, and the planes known pass
+/// most of what is left.
 template <ConvexTool Tool>
 class Sweep {
  public:
@@ -84,11 +87,19 @@ class Sweep {
       examine(pair.triangle, pair.state, from_known_, moving, result, work);
       if (work > limit) return give_up(result);
     }
-    const bool is_whole = traverse(mesh, moving, work, limit, [&](int triangle, const Matrix3<Scalar>& corners) {
+    const auto look_at = [&](int triangle, const Matrix3<Scalar>& corners) {
       if (!is_among(triangle, known)) examine(triangle, {corners, Vector::Zero(), planes_.features().recall(triangle), false}, clearance_, moving, result, work);
       return true;
-    });
-    return is_whole ? result : give_up(result);
+    };
+    int low = limit - (limit - work) / 8;
+    const auto goes_on = [&] {  // with a shorter motion
+      if (work > limit) return false;
+      low = limit - (limit - low) / 2;
+      result.time = std::min(result.time, end_.time / 4);
+      set_end(moving, end_.time / 4);
+      return true;
+    };
+    return traverse(mesh, moving, work, low, look_at, goes_on) ? result : give_up(result);
   }
 
   /// Whether single planes part the tool over the whole motion from every triangle. They are looked for at its start alone: false may mean
@@ -97,13 +108,14 @@ class Sweep {
   template <class MeshScalar>
   bool parts(const TriangleMesh<MeshScalar>& mesh, const MovingTool<Tool>& moving, int& work, int limit) noexcept {
     begin(mesh, moving, Scalar(1));
-    return traverse(mesh, moving, work, limit, [&](int, const Matrix3<Scalar>& corners) {
+    const auto is_parted = [&](int, const Matrix3<Scalar>& corners) {
       ++work;
       const auto closest = gjk(moving.tool(), moving.in_tool(corners, start_), {}, clearance_.touching);
       if (closest.is_touching) return false;
       add_plane(start_.rotation * closest.normal, moving);
       return passes(corners);
-    });
+    };
+    return traverse(mesh, moving, work, limit, is_parted, [] { return false; });
   }
 
  private:
@@ -127,10 +139,11 @@ class Sweep {
     set_end(moving, until);
   }
 
-  /// Calls `visit(triangle, its corners relative to the motion's origin)` for every triangle that no cached plane passes, until one call
-  /// is false or the work done exceeds its limit; true when it came to the end.
-  template <class MeshScalar, class Visit>
-  bool traverse(const TriangleMesh<MeshScalar>& mesh, const MovingTool<Tool>& moving, int& work, int limit, const Visit& visit) noexcept {
+  /// Calls `visit(triangle, its corners relative to the motion's origin)` for every triangle that no cached plane passes, and `goes_on()`
+  /// when the work done exceeds the limit, until one call is false; true when it came to the end.
+  template <class MeshScalar, class Visit, class GoesOn>
+  bool traverse(const TriangleMesh<MeshScalar>& mesh, const MovingTool<Tool>& moving, int& work, const int& limit, const Visit& visit,
+                const GoesOn& goes_on) noexcept {
     const auto& bvh = mesh.bvh();
     const auto nodes = bvh.nodes();
     const auto order = bvh.triangle_order();
@@ -144,7 +157,7 @@ class Sweep {
         tests = 0;
         ++work;
       }
-      if (work > limit) return false;
+      if (work > limit && !goes_on()) return false;
       if (node.count == 0) {
         const int later = is_ahead(nodes[std::size_t(node.first + 1)], nodes[std::size_t(node.first)], moving) ? 1 : 0;
         for (const int child : {node.first + later, node.first + 1 - later}) {

@@ -443,7 +443,7 @@ class CandidateContactsFollower {
             certificate_.certify(scene, pose_, motion, tick.work, tick.work + scene.settings().work_budget);
         if (!result.blockers.empty()) is_new = admit(scene, result) || is_new;
         const Pose<Scalar> reached = moved(pose_, motion * (result.is_exhausted ? Scalar(0) : result.time));
-        const bool is_there = !result.is_exhausted && result.blockers.empty();
+        const bool is_there = result.is_whole();
         const Scalar energy = scene.metric().energy(motion_between(target_, reached));
         if (best.solution == nullptr || is_there || energy < best.energy) {
           best = {&solution, reached, energy, length, length * result.time, is_there};

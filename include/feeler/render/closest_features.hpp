@@ -137,15 +137,17 @@ class ClosestFeaturesFollower {
         // What was found to block is real, and saves work next time.
         if (!linearisation_.admit(scene, result)) limits_.shorten(linearisation_.is_empty(), length / 8);
       } else {
-        const bool is_done = result.blockers.empty() && proposal.is_settled && !proposal.is_capped;
+        const bool is_done = result.is_whole() && proposal.is_settled && !proposal.is_capped;
         pose_ = is_done && proposal.is_free ? target_ : turns.moved(pose_, proposal.motion * result.time);
         if (result.time > Scalar(0)) {
           tick.path.push_back(scene.tool_pose(pose_));
           linearisation_.pairs().approach(length * result.time);
         }
         if (is_done) return true;
-        if (result.blockers.empty()) {
+        if (result.is_whole()) {
           limits_.widen();
+        } else if (result.blockers.empty()) {
+          limits_.shorten(linearisation_.is_empty(), length * result.time);
         } else if (linearisation_.admit(scene, result)) {
           limits_.narrow_to_radius();
         } else {

@@ -52,8 +52,11 @@ class MotionCertificate {
           result.time = Scalar(0);
           break;
         }
-        if (passed.blockers.empty()) continue;
         result.time = std::min(result.time, passed.time);
+        if (passed.blockers.empty()) {
+          until = std::min(until, passed.time);
+          continue;
+        }
         const Scalar enough = worth_certifying(result.time, scene.clearance(), moving);
         if (2 * enough <= until) until = enough;
       }
