@@ -1,7 +1,6 @@
 // Times the recognition of contacts on the poses that the renderer gives in scenes: the table in docs/contacts.md.
 //
 // Usage: feeler-contact-latency. One line a scene; times are of ticks in contact only.
-#include <algorithm>
 #include <chrono>
 #include <cstdio>
 #include <variant>
@@ -12,9 +11,11 @@
 #include "scenes/cavity.hpp"
 #include "scenes/steps.hpp"
 #include "scenes/terrain.hpp"
+#include "times.hpp"
 
 namespace {
 
+using feeler::bench::quantile;
 using Clock = std::chrono::steady_clock;
 
 double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
@@ -44,13 +45,11 @@ void run(const feeler::scenes::Scene& scene, const Tool& tool, int ticks) {
     if (!formation.is_complete()) ++incomplete;
     if (tracker.observe(formation) != nullptr) ++switches;
   }
-  std::sort(times.begin(), times.end());
-  const auto quantile = [&](double q) { return times.empty() ? 0.0 : times[std::size_t(q * double(times.size() - 1))]; };
   std::printf(
       "%s: %d triangles, mesh %.3f s, features %.3f s; %d ticks in contact: median %.1f, p99 %.1f, max %.1f us; %d switches, %d incomplete, "
       "%d ticks where the renderer has contacts and the tolerance none\n",
-      scene.name.c_str(), object.triangle_count(), mesh_seconds, features_seconds, int(times.size()), quantile(0.5), quantile(0.99),
-      quantile(1.0), switches, incomplete, missed);
+      scene.name.c_str(), object.triangle_count(), mesh_seconds, features_seconds, int(times.size()), quantile(times, 0.5), quantile(times, 0.99),
+      quantile(times, 1.0), switches, incomplete, missed);
 }
 
 void run(const feeler::scenes::Scene& scene, int ticks) {

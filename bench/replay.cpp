@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <ctime>
 #include <filesystem>
 #include <numeric>
 #include <string>
@@ -19,11 +18,14 @@
 #include "scenes/motions.hpp"
 #include "scenes/teeth.hpp"
 #include "support/penetration_checker.hpp"
+#include "times.hpp"
 
 namespace {
 
 using feeler::Pose;
 using feeler::Twist;
+using feeler::bench::quantile;
+using feeler::bench::thread_time;
 
 struct Options {
   std::string scene = "all";
@@ -47,19 +49,6 @@ struct Figures {
   std::vector<double> distance, distance_if_converged;       // to where the held device settles [m]
   double deepest = 0.0;
 };
-
-double quantile(std::vector<double> values, double share) {
-  if (values.empty()) return 0.0;
-  std::sort(values.begin(), values.end());
-  return values[std::size_t(share * double(values.size() - 1))];
-}
-
-/// Processor time of this thread [µs]: other programs on the machine do not count.
-double thread_time() {
-  timespec t;
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &t);
-  return double(t.tv_sec) * 1e6 + double(t.tv_nsec) * 1e-3;
-}
 
 /// Distance in the metric of the scene from the graphic pose to where the renderer would settle with the device held [m].
 template <class Renderer>

@@ -4,7 +4,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "times.hpp"
+
 namespace feeler::experiments {
+
+using bench::quantile;
 
 const char* name_of(State state) {
   switch (state) {
@@ -42,12 +46,6 @@ bool occur_in_order(const std::vector<Record>& ticks, State (*state_of)(const Re
     if (next < states.size() && state_of(record) == states[next]) ++next;
   }
   return next == states.size();
-}
-
-double quantile(std::vector<double> values, double share) {
-  if (values.empty()) return 0.0;
-  std::sort(values.begin(), values.end());
-  return values[std::size_t(share * double(values.size() - 1))];
 }
 
 Measures measure(const std::vector<Record>& ticks, double stiffness) {

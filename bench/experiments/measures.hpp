@@ -33,6 +33,4 @@ Measures measure(const std::vector<Record>& ticks, double stiffness);
 /// The worse of both; of times the larger.
 Measures worst_of(const Measures& a, const Measures& b);
 
-double quantile(std::vector<double> values, double share);
-
 }  // namespace feeler::experiments

@@ -3,31 +3,24 @@
 
 #include <algorithm>
 #include <cmath>
-#include <ctime>
 
 #include "experiments/run.hpp"
 #include "feeler/contact/contact_recogniser.hpp"
 #include "feeler/feeler.hpp"
 #include "feeler/render/candidate_contacts.hpp"
 #include "support/penetration_checker.hpp"
+#include "times.hpp"
 
 namespace feeler::experiments {
-
-/// Processor time of this thread [µs].
-inline double thread_time() noexcept {
-  timespec t;
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &t);
-  return double(t.tv_sec) * 1e6 + double(t.tv_nsec) * 1e-3;
-}
 
 /// The default solver, which adds up the time it takes.
 class TimedSolver {
  public:
   using Scalar = double;
   QpStatus solve(const QpProblem<double>& problem, QpSolution<double>& solution) noexcept {
-    const double begin = thread_time();
+    const double begin = bench::thread_time();
     const QpStatus status = solver_.solve(problem, solution);
-    microseconds += thread_time() - begin;
+    microseconds += bench::thread_time() - begin;
     return status;
   }
   inline static thread_local double microseconds = 0;
@@ -125,9 +118,9 @@ Run run_method(const scenes::Setting& scene, const Tool& tool, const Settings<do
     record.t = double(k) / 1000.0;
     record.haptic = scene.motion(record.t);
     TimedSolver::microseconds = 0;
-    const double begin = thread_time();
+    const double begin = bench::thread_time();
     const auto& tick = renderer.update(record.haptic);
-    record.microseconds = thread_time() - begin;
+    record.microseconds = bench::thread_time() - begin;
     record.optimisation_microseconds = TimedSolver::microseconds;
     record.graphic = tick.graphic_pose;
     record.wrench = tick.wrench;

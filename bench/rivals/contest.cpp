@@ -3,25 +3,21 @@
 
 #include <algorithm>
 #include <cmath>
-#include <ctime>
 #include <limits>
 
 #include "feeler/spatial/metric.hpp"
 #include "rivals/side_of_object.hpp"
 #include "scenes/motions.hpp"
+#include "times.hpp"
 
 namespace feeler::rivals {
 namespace {
 
+using bench::quantile;
+using bench::thread_time;
+
 constexpr int ticks_per_turn = 200;
 constexpr double contact_energy = 1e-14;  // [m²]
-
-/// Processor time of this thread [µs]: other programs on the machine do not count.
-double thread_time() {
-  timespec t;
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &t);
-  return double(t.tv_sec) * 1e6 + double(t.tv_nsec) * 1e-3;
-}
 
 /// The ticks of one contender, as many as it made.
 struct Track {
@@ -155,12 +151,6 @@ double lag(CoupledTool& tool, const Contest& contest, double rate) {
 }
 
 }  // namespace
-
-double quantile(std::vector<double> values, double share) {
-  if (values.empty()) return 0.0;
-  std::sort(values.begin(), values.end());
-  return values[std::size_t(share * double(values.size() - 1))];
-}
 
 std::vector<Score> hold(Contest& contest, const ContestOptions& options) {
   const auto device = scenes::sampled(contest.motion, options.rate, int(options.seconds * options.rate) + 1);

@@ -62,7 +62,4 @@ struct Score {
 /// of reach, and its first 0.7 s do not count, in which hands come down with a jolt.
 std::vector<Score> hold(Contest& contest, const ContestOptions& options);
 
-/// The value below which a share of the values lies; 0 of none.
-double quantile(std::vector<double> values, double share);
-
 }  // namespace feeler::rivals
