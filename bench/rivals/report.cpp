@@ -231,14 +231,15 @@ bool draw_scenes(const std::filesystem::path& folder, const std::vector<SceneSco
 bool draw_scaling(const std::filesystem::path& folder, const std::string& name, const std::string& size,
                   const std::vector<ScalingPoint>& curve) {
   std::string text =
-      "set key outside top horizontal Left reverse samplen 1.6\nset logscale xy; set xlabel '" + size +
+      "set key outside top horizontal Left reverse samplen 1.6\nset logscale xy; unset mxtics\n"
+      "set autoscale xfix; set offsets graph 0.02, graph 0.02, 0, 0\nset xlabel '" + size +
       "'; set ylabel 'time of a tick  [µs]'\nplot ";
   bool is_first = true;
   for (const Series& s : shown) {
     if (curve.empty() || find(curve.front().scores, s.name) == nullptr) continue;
     for (const auto& [column, title, dash] : {std::tuple("4", "median", "1"), std::tuple("5", "p99", "2")}) {
       text += std::string(is_first ? "" : ", ") + "'< grep \"" + s.name + "\" " + name +
-              ".csv' using 1:" + column + " with linespoints pt 7 ps 0.6 lw 1.8 dt " + dash + " lc rgb " +
+              ".csv' using 1:" + column + ":xtic(1) with linespoints pt 7 ps 0.6 lw 1.8 dt " + dash + " lc rgb " +
               s.colour + " title '" + s.name + ", " + title + "'";
       is_first = false;
     }
