@@ -48,11 +48,10 @@ struct ContactRow {
   /// Whether another row asks the same of a step, but for rounding; how the two bend may differ. Triangles of one plane or with one edge
   /// have such rows, and so have pieces of a tool with one corner.
   bool repeats(const ContactRow& other) const noexcept {
-    using std::abs;
     constexpr Scalar angle = 4096 * std::numeric_limits<Scalar>::epsilon();
-    const Scalar length = angle * arm.norm();
-    return abs(gap - other.gap) <= length && is_assumed == other.is_assumed && (normal - other.normal).squaredNorm() <= angle * angle &&
-           (arm - other.arm).cross(normal).squaredNorm() <= length * length;
+    const Scalar squared_angle = angle * angle, squared_length = squared_angle * arm.squaredNorm();
+    return (gap - other.gap) * (gap - other.gap) <= squared_length && is_assumed == other.is_assumed &&
+           (normal - other.normal).squaredNorm() <= squared_angle && (arm - other.arm).cross(normal).squaredNorm() <= squared_length;
   }
 
   /// The row where a motion ends, exactly, if the same features still meet there.

@@ -91,15 +91,14 @@ class Sweep {
       if (!is_among(triangle, known)) examine(triangle, {corners, Vector::Zero(), planes_.features().recall(triangle), false}, clearance_, moving, result, work);
       return true;
     };
-    int low = limit - (limit - work) / 8;
-    const auto goes_on = [&] {  // with a shorter motion
+    const auto goes_on = [&](int& low) {  // with a shorter motion
       if (work > limit) return false;
       low = limit - (limit - low) / 2;
       result.time = std::min(result.time, end_.time / 4);
       set_end(moving, end_.time / 4);
       return true;
     };
-    return traverse(mesh, moving, work, low, look_at, goes_on) ? result : give_up(result);
+    return traverse(mesh, moving, work, limit - (limit - work) / 8, look_at, goes_on) ? result : give_up(result);
   }
 
   /// Whether single planes part the tool over the whole motion from every triangle. They are looked for at its start alone: false may mean
@@ -115,7 +114,7 @@ class Sweep {
       add_plane(start_.rotation * closest.normal, moving);
       return passes(corners);
     };
-    return traverse(mesh, moving, work, limit, is_parted, [] { return false; });
+    return traverse(mesh, moving, work, limit, is_parted, [](int&) { return false; });
   }
 
  private:
@@ -139,10 +138,10 @@ class Sweep {
     set_end(moving, until);
   }
 
-  /// Calls `visit(triangle, its corners relative to the motion's origin)` for every triangle that no cached plane passes, and `goes_on()`
-  /// when the work done exceeds the limit, until one call is false; true when it came to the end.
+  /// Calls `visit(triangle, its corners relative to the motion's origin)` for every triangle that no cached plane passes, and `goes_on(limit)`
+  /// when the work done exceeds the limit, which it may raise, until one call is false; true when it came to the end.
   template <class MeshScalar, class Visit, class GoesOn>
-  bool traverse(const TriangleMesh<MeshScalar>& mesh, const MovingTool<Tool>& moving, int& work, const int& limit, const Visit& visit,
+  bool traverse(const TriangleMesh<MeshScalar>& mesh, const MovingTool<Tool>& moving, int& work, int limit, const Visit& visit,
                 const GoesOn& goes_on) noexcept {
     const auto& bvh = mesh.bvh();
     const auto nodes = bvh.nodes();
@@ -157,7 +156,7 @@ class Sweep {
         tests = 0;
         ++work;
       }
-      if (work > limit && !goes_on()) return false;
+      if (work > limit && !goes_on(limit)) return false;
       if (node.count == 0) {
         const int later = is_ahead(nodes[std::size_t(node.first + 1)], nodes[std::size_t(node.first)], moving) ? 1 : 0;
         for (const int child : {node.first + later, node.first + 1 - later}) {

@@ -54,7 +54,7 @@ class MotionCertificate {
         }
         result.time = std::min(result.time, passed.time);
         if (passed.blockers.empty()) {
-          until = std::min(until, passed.time);
+          until = passed.time;
           continue;
         }
         const Scalar enough = worth_certifying(result.time, scene.clearance(), moving);
