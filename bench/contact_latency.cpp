@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "feeler/contact/contact_recogniser.hpp"
-#include "feeler/render/haptic_renderer.hpp"
 #include "scenes/cavity.hpp"
+#include "scenes/renderers.hpp"
 #include "scenes/steps.hpp"
 #include "scenes/terrain.hpp"
 #include "times.hpp"

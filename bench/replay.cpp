@@ -16,6 +16,7 @@
 #include "feeler/feeler.hpp"
 #include "scenes/catalogue.hpp"
 #include "scenes/motions.hpp"
+#include "scenes/renderers.hpp"
 #include "scenes/teeth.hpp"
 #include "support/penetration_checker.hpp"
 #include "times.hpp"

@@ -13,6 +13,7 @@
 #include "feeler/device/simulated_phantom.hpp"
 #include "feeler/feeler.hpp"
 #include "scenes/cavity.hpp"
+#include "scenes/renderers.hpp"
 #include "text_file.hpp"
 
 namespace {

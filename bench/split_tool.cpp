@@ -8,7 +8,6 @@
 #include <vector>
 
 #include <CLI/CLI.hpp>
-#include <Eigen/SVD>
 #include <hacdHACD.h>
 
 #include "bad_input.hpp"

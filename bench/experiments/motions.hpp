@@ -7,6 +7,7 @@
 
 #include "scenes/cavity.hpp"
 #include "scenes/plate.hpp"
+#include "scenes/rotation_between.hpp"
 #include "scenes/spline.hpp"
 #include "scenes/steps.hpp"
 
@@ -68,7 +69,7 @@ inline scenes::Scene steps_states() {
     const Vector along(0.0078 * std::cos(angle), 0.029, 0.0078 * std::sin(angle));
     Pose<double> pose;
     pose.translation = {v[0], -0.0145, v[1]};
-    pose.rotation = Quaternion<double>::FromTwoVectors(Vector::UnitZ(), along);
+    pose.rotation = scenes::rotation_between(Vector::UnitZ(), along);
     return pose;
   };
   scene.start = scene.motion(0.0);

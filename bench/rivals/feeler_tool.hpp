@@ -6,6 +6,7 @@
 
 #include "feeler/feeler.hpp"
 #include "rivals/coupled_tool.hpp"
+#include "scenes/renderers.hpp"
 #include "scenes/scene.hpp"
 
 namespace feeler::rivals {

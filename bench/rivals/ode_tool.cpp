@@ -8,6 +8,7 @@
 #include <ode/ode.h>
 
 #include "rivals/spring_coupling.hpp"
+#include "scenes/rotation_between.hpp"
 
 #ifndef dDOUBLE
 #error "Feeler is compared in double precision: install an ODE that was built with it."
@@ -131,7 +132,7 @@ class OdeTool final : public CoupledTool {
     if (const auto* line = std::get_if<Segment<double>>(&scene.primitive)) {
       const Vector3<double> along = line->vertex(1) - line->vertex(0),
                             middle = (line->vertex(0) + line->vertex(1)) / 2.0;
-      const auto turn = Quaternion<double>::FromTwoVectors(Vector3<double>::UnitZ(), along);
+      const auto turn = scenes::rotation_between(Vector3<double>::UnitZ(), along);
       const dQuaternion rotation{turn.w(), turn.x(), turn.y(), turn.z()};
       const dGeomID geom = dCreateCapsule(nullptr, line_radius, along.norm());
       dGeomSetBody(geom, body_);

@@ -4,6 +4,7 @@
 #include <limits>
 #include <utility>
 
+#include "scenes/rotation_between.hpp"
 #include "scenes/surface_path.hpp"
 
 namespace feeler::scenes {
@@ -85,7 +86,7 @@ inline Scene mesh_scene(std::string name, Points<double> vertices, Triangles tri
     const Vector direction = outward(s);
     const Vector wobble(0.3 * std::sin(3.0 * t), 0.3 * std::sin(4.0 * t), 0.8 * std::sin(2.0 * t));
     const Quaternion<double> rotation =
-        exp_rotation(wobble) * Quaternion<double>::FromTwoVectors(Vector::UnitZ(), direction);
+        exp_rotation(wobble) * rotation_between(Vector::UnitZ(), direction);
     const double depth = press * (0.003 + 0.002 * std::sin(7.0 * t));
     const double pressed = surface(s) - depth;
     const double away = outside + 0.005;

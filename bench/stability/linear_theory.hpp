@@ -4,11 +4,24 @@
 
 #include <cmath>
 
-#include <Eigen/Eigenvalues>
+#include <Eigen/Core>
 
 #include "feeler/device/simulated_hand.hpp"
 
 namespace feeler::stability {
+
+/// Largest modulus of an eigenvalue, by Gelfand's formula: the root of degree n of |Aⁿ|, with n = 2⁵⁰ by squaring.
+inline double spectral_radius(Eigen::Matrix3d a) {
+  double logarithm = 0;
+  double share = 1;
+  for (int squaring = 0; squaring <= 50; ++squaring) {
+    const double size = a.norm();
+    logarithm += share * std::log(size);
+    a = Eigen::Matrix3d(a / size) * (a / size);
+    share /= 2;
+  }
+  return std::exp(logarithm);
+}
 
 /// Largest eigenvalue of one tick of a handle on a grip and a bilateral wall that is felt one tick late:
 /// above 1 it grows.
@@ -30,7 +43,7 @@ inline double growth_of_a_tick(const Handle& handle, const Grip& grip, double pe
   for (int i = 0; i < doublings; ++i) tick = Eigen::Matrix3d(2 * tick + tick * tick);
   tick += Eigen::Matrix3d::Identity();
   tick.row(2) << -stiffness, 0, 0;  // pushed from the next tick on
-  return Eigen::EigenSolver<Eigen::Matrix3d>(tick, false).eigenvalues().cwiseAbs().maxCoeff();
+  return spectral_radius(tick);
 }
 
 /// The largest K that grows by no more than this in a second [N/m], by bisection; below 1 it must decay.

@@ -7,10 +7,9 @@
 #include <utility>
 
 #include "feeler/device/conversion.hpp"
-#include "feeler/render/haptic_renderer.hpp"
-#include "feeler/render/wrench_derivative.hpp"
 #include "rivals/bullet_tool.hpp"
 #include "rivals/ode_tool.hpp"
+#include "scenes/renderers.hpp"
 
 namespace feeler::stability {
 namespace {

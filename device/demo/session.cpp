@@ -16,7 +16,7 @@
 #include "feeler/device/servo_loop.hpp"
 #include "feeler/device/workspace_map.hpp"
 #include "feeler/object/triangle_mesh.hpp"
-#include "feeler/render/haptic_renderer.hpp"
+#include "scenes/renderers.hpp"
 
 namespace feeler::demo {
 namespace {

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "feeler/contact/contact_recogniser.hpp"
+#include "scenes/rotation_between.hpp"
 #include "scenes/steps.hpp"
 
 BOOST_AUTO_TEST_SUITE(contact_formation)
@@ -119,7 +120,7 @@ BOOST_AUTO_TEST_CASE(events_of_a_segment_that_slides_down_a_step_come_in_order) 
   const Vector along_tool = tool.vertex(1) - tool.vertex(0);
   const double length = along_tool.norm();
   const auto visit = [&](const Vector& tip, const Vector& direction) {
-    const Eigen::Quaterniond rotation = Eigen::Quaterniond::FromTwoVectors(along_tool, direction);
+    const Eigen::Quaterniond rotation = feeler::scenes::rotation_between(along_tool, direction);
     const auto* event = tracker.observe(recogniser.recognise({tip - rotation * tool.vertex(0), rotation}));
     if (event == nullptr) return;
     BOOST_TEST(summary(event->before) == (events.empty() ? "in 0" : events.back()));

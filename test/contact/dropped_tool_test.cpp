@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "feeler/contact/contact_recogniser.hpp"
+#include "scenes/rotation_between.hpp"
 #include "support/contact_scenes.hpp"
 #include "support/random_tools.hpp"
 
@@ -292,7 +293,7 @@ Pose random_start(const Tool& tool, const Made& object, std::mt19937& bits) {
   Pose pose = set_down(feature, {x, y, 0}, 2, angle);
   if (below(bits, 3) != 0) return pose;
   const Eigen::Vector3d normal = normal_of(object.polygon(object.faces[std::size_t(below(bits, int(object.faces.size())))])).template cast<double>();
-  pose.rotation = Eigen::Quaterniond::FromTwoVectors(Eigen::Vector3d::UnitZ(), normal) * pose.rotation;
+  pose.rotation = feeler::scenes::rotation_between(Eigen::Vector3d::UnitZ(), normal) * pose.rotation;
   return pose;
 }
 

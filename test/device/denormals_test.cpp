@@ -10,9 +10,8 @@
 #include <limits>
 #include <vector>
 
-#include "feeler/render/haptic_renderer.hpp"
-#include "feeler/tool/box.hpp"
 #include "scenes/cavity.hpp"
+#include "scenes/renderers.hpp"
 
 using namespace feeler;
 

@@ -1,8 +1,8 @@
-// Rotations out of matrices that are nearly ones: against a singular value decomposition in wider arithmetic.
+// Rotations out of matrices that are nearly ones: against the polar decomposition in wider arithmetic.
 #include <boost/test/unit_test.hpp>
 
+#include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
-#include <Eigen/SVD>
 
 #include <limits>
 #include <random>
@@ -44,9 +44,9 @@ BOOST_AUTO_TEST_CASE(a_skewed_matrix_becomes_the_nearest_rotation) {
     WideMatrix skewed = q.toRotationMatrix();
     for (int i = 0; i < 9; ++i) skewed(i) += 0.01L * (long double)(unit());
     const Matrix given = plain(skewed);
-    // The orthogonal factor of the polar decomposition: U Vᵀ.
-    const Eigen::JacobiSVD<WideMatrix> svd(skewed, Eigen::ComputeFullU | Eigen::ComputeFullV);
-    const WideMatrix nearest = svd.matrixU() * svd.matrixV().transpose();
+    // The orthogonal factor of the polar decomposition: A (Aᵀ A)^(-1/2).
+    const Eigen::SelfAdjointEigenSolver<WideMatrix> squared(skewed.transpose() * skewed);
+    const WideMatrix nearest = skewed * squared.operatorInverseSqrt();
     double quaternion[4] = {0, 0, 0, 0};
     BOOST_REQUIRE(feeler::nearest_rotation(given.rows, quaternion));
     BOOST_TEST(distance(nearest, quaternion) < 1e-14);

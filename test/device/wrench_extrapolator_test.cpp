@@ -6,8 +6,8 @@
 
 #include "feeler/device/conversion.hpp"
 #include "feeler/device/wrench_extrapolator.hpp"
-#include "feeler/render/wrench_derivative.hpp"
 #include "scenes/plate.hpp"
+#include "scenes/renderers.hpp"
 
 BOOST_AUTO_TEST_SUITE(wrench_extrapolator)
 

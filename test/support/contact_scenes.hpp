@@ -11,6 +11,7 @@
 #include "feeler/object/triangle_mesh.hpp"
 #include "feeler/spatial/pose.hpp"
 #include "feeler/tool/convex_tool.hpp"
+#include "scenes/rotation_between.hpp"
 #include "support/random_geometry.hpp"
 
 namespace feeler_test {
@@ -142,7 +143,7 @@ double rise_of(const Tool& tool, const ToolFeature& feature) {
 
 /// The pose in which a feature rests at a height above a point, facing down the z axis, its edge at an angle to the y axis.
 inline Pose set_down(const ToolFeature& feature, const Eigen::Vector3d& point, double height, double angle) {
-  Eigen::Quaterniond rotation = Eigen::Quaterniond::FromTwoVectors(feature.outward, -Eigen::Vector3d::UnitZ());
+  Eigen::Quaterniond rotation = feeler::scenes::rotation_between(feature.outward, -Eigen::Vector3d::UnitZ());
   const Eigen::Vector3d along = rotation * feature.along;
   const double heading = feature.along.isZero() ? 0.0 : std::atan2(-along.x(), along.y());  // from the y axis
   rotation = Eigen::Quaterniond(Eigen::AngleAxisd(angle - heading, Eigen::Vector3d::UnitZ())) * rotation;

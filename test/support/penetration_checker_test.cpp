@@ -4,6 +4,8 @@
 
 #include <random>
 
+#include "scenes/rotation_between.hpp"
+
 BOOST_AUTO_TEST_SUITE(penetration_checker)
 
 using namespace feeler::test;
@@ -85,7 +87,7 @@ BOOST_AUTO_TEST_CASE(cube_in_a_plane_is_as_deep_as_it_is_pushed) {
 
 BOOST_AUTO_TEST_CASE(corner_in_a_face_is_as_deep_as_its_tip) {
   const CheckedTool cube = box(Vector3d::Constant(0.5));
-  const Quaterniond on_its_corner = Quaterniond::FromTwoVectors(Vector3d(-1, -1, -1), Vector3d(0, 0, -1));
+  const Quaterniond on_its_corner = feeler::scenes::rotation_between(Vector3d(-1, -1, -1), Vector3d(0, 0, -1));
   for (const double depth : depths) {
     const CheckedPose pose(Vector3d(1, -2, std::sqrt(0.75) - depth), on_its_corner);
     BOOST_TEST(std::abs(depth_of(plane(), cube, pose) - depth) < 5e-16);
@@ -137,7 +139,7 @@ BOOST_AUTO_TEST_CASE(a_sphere_is_as_deep_as_its_centre_is_nearer_than_the_radius
 
 BOOST_AUTO_TEST_CASE(a_rounded_cube_is_as_deep_as_its_core_and_the_radius) {
   const CheckedTool cube = box(Vector3d::Constant(0.5)).swept_by(0.25L);
-  const Quaterniond on_its_corner = Quaterniond::FromTwoVectors(Vector3d(-1, -1, -1), Vector3d(0, 0, -1));
+  const Quaterniond on_its_corner = feeler::scenes::rotation_between(Vector3d(-1, -1, -1), Vector3d(0, 0, -1));
   for (const double depth : depths) {
     BOOST_TEST(std::abs(depth_of(plane(), cube, shifted(1, 2, 0.75 - depth)) - depth) < 2e-16);
     const CheckedPose tilted(Vector3d(1, -2, std::sqrt(0.75) + 0.25 - depth), on_its_corner);

@@ -25,6 +25,7 @@ using Wide6 = Eigen::Matrix<WideReal, 6, 1>;
 using WideMatrix6 = Eigen::Matrix<WideReal, 6, 6>;
 using WideRows = Eigen::Matrix<WideReal, Eigen::Dynamic, 6>;
 using WideVectorX = Eigen::Matrix<WideReal, Eigen::Dynamic, 1>;
+using WideMatrix = Eigen::Matrix<WideReal, Eigen::Dynamic, Eigen::Dynamic>;
 
 /// Rounding of a scalar, or of the type that judges it where that is coarser.
 template <class Scalar>
@@ -109,7 +110,7 @@ struct BruteForceOptimum {
   }
 
   BruteForceOptimum(const WideProblem& problem, WideReal slack) {
-    const WideMatrix6 inverse = problem.hessian.inverse();
+    const WideMatrix6 inverse = Eigen::FullPivLU<WideMatrix>(problem.hessian).inverse();
     const Wide6 free = -(inverse * problem.gradient);
     for_every_subset(int(problem.rows.rows()), 6, [&](const std::vector<int>& subset) {
       const auto count = Eigen::Index(subset.size());
@@ -122,8 +123,7 @@ struct BruteForceOptimum {
       }
       Wide6 d = free;
       if (count > 0) {
-        const Eigen::Matrix<WideReal, Eigen::Dynamic, Eigen::Dynamic> normal = n * inverse * n.transpose();
-        const Eigen::FullPivLU<Eigen::Matrix<WideReal, Eigen::Dynamic, Eigen::Dynamic>> lu(normal);
+        const Eigen::FullPivLU<WideMatrix> lu(n * inverse * n.transpose());
         if (!lu.isInvertible()) return;
         for (int refinement = 0; refinement < 3; ++refinement) {
           d += inverse * n.transpose() * lu.solve(lacking);
@@ -159,10 +159,13 @@ inline bool are_infeasible(const WideRows& rows, const WideVectorX& bounds, Wide
       a.row(i) = rows.row(subset[std::size_t(i)]);
       b[i] = bounds[subset[std::size_t(i)]];
     }
-    const Eigen::JacobiSVD<Eigen::Matrix<WideReal, Eigen::Dynamic, Eigen::Dynamic>> svd(a,
-                                                                                        Eigen::ComputeFullU);
-    WideVectorX y = svd.matrixU().col(count - 1);
-    if (y.sum() < 0) y = -y;
+    // The singular vector of the least singular value, by inverse iteration; a y ≥ 0 is not orthogonal to the start.
+    WideMatrix gram = a * a.transpose();
+    gram.diagonal().array() += 1e-18L * gram.trace();
+    Eigen::FullPivLU<WideMatrix> lu(gram);
+    lu.setThreshold(0);
+    WideVectorX y = WideVectorX::Ones(count);
+    for (int iteration = 0; iteration < 8; ++iteration) y = lu.solve(y).normalized();
     if (y.minCoeff() < -1e-15L) return;
     y = y.cwiseMax(WideReal(0));
     proved = b.dot(y) - reach * (a.transpose() * y).norm() > 0;
@@ -382,7 +385,7 @@ void check_qp_laws(unsigned seed = 1, int problems_per_family = 300, const QpPro
   // Without rows the answer is −H⁻¹g; with a row that says nothing too; a row of zeros can not be met.
   Problem problem = random_problem<Scalar>(bits, 0, 1);
   problem.clear_rows();
-  const Wide6 free = -(WideProblem(problem).hessian.inverse() * WideProblem(problem).gradient);
+  const Wide6 free = Eigen::FullPivLU<WideMatrix>(-WideProblem(problem).hessian).solve(WideProblem(problem).gradient);
   for (const Scalar& bound : {Scalar(0), Scalar(-1)}) {
     BOOST_TEST((solver.solve(problem, solution) == feeler::QpStatus::optimal));
     BOOST_TEST((solution.step.template cast<WideReal>() - free).norm() <=

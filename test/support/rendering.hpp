@@ -7,6 +7,7 @@
 #include <variant>
 
 #include "feeler/feeler.hpp"
+#include "scenes/renderers.hpp"
 #include "scenes/scene.hpp"
 #include "support/penetration_checker.hpp"
 

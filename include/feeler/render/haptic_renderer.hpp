@@ -35,47 +35,19 @@ class HapticRenderer {
   using Working = WorkingScalar<Scalar>;
   using Follower = typename Method::template Follower<Tool, Solver>;
 
-  HapticRenderer(const TriangleMesh<Scalar>& object, const Tool& tool, const Settings<Scalar>& settings = {})
-      : scene_(object, tool, settings) {}
+  HapticRenderer(const TriangleMesh<Scalar>& object, const Tool& tool, const Settings<Scalar>& settings = {});
   HapticRenderer(TriangleMesh<Scalar>&&, const Tool&, const Settings<Scalar>& = {}) = delete;
 
   const Settings<Scalar>& settings() const noexcept { return scene_.settings(); }
 
   /// Puts the graphic tool at a pose; `Status::penetrating` if it would overlap the object there, and then the renderer holds no pose.
   /// @cost  not bounded by the work budget: for use outside the loop
-  Status reset(const Pose<Scalar>& pose) noexcept {
-    is_reset_ = false;
-    tick_ = {};
-    if (!pose.is_finite()) return tick_.status = Status::not_finite;
-    tick_.graphic_pose = pose.normalized();
-    const Pose<Working> reference_pose = scene_.reference_pose(pose);
-    if (!is_free_at(reference_pose)) return tick_.status = Status::penetrating;
-    follower_.reset(scene_, reference_pose);
-    is_reset_ = true;
-    return tick_.status = Status::converged;
-  }
+  Status reset(const Pose<Scalar>& pose) noexcept;
 
   /// One tick. The result stays valid until the next call.
   /// @param haptic_pose  pose of the tool frame that the device commands; its quaternion need not be unit
   /// @cost  noexcept; no allocation, lock, clock or I/O; bounded by `Settings::maximum_iterations` and `work_budget`
-  const Tick<Scalar>& update(const Pose<Scalar>& haptic_pose) noexcept {
-    if (!haptic_pose.is_finite()) {
-      tick_.path.clear();
-      tick_.status = Status::not_finite;
-      return tick_;
-    }
-    if (!is_reset_) {
-      tick_ = {};
-      tick_.graphic_pose = haptic_pose.normalized();
-      return tick_;
-    }
-    const Pose<Working> target = scene_.reference_pose(haptic_pose);
-    tick_.work = 0;
-    tick_.path.clear();
-    tick_.status = follower_.follow(scene_, target, tick_);
-    report(target);
-    return tick_;
-  }
+  const Tick<Scalar>& update(const Pose<Scalar>& haptic_pose) noexcept;
 
   /// The result of the last tick.
   const Tick<Scalar>& tick() const noexcept { return tick_; }
@@ -84,26 +56,71 @@ class HapticRenderer {
   const Follower& follower() const noexcept { return follower_; }
 
  private:
-  bool is_free_at(const Pose<Working>& pose) const noexcept {
-    int work = 0;
-    MotionCertificate<Tool> certificate;
-    return certificate.certify(scene_, pose, {}, work, std::numeric_limits<int>::max()).blockers.empty();
-  }
-
-  void report(const Pose<Working>& target) noexcept {
-    tick_.graphic_pose = scene_.tool_pose(follower_.pose());
-    const Stiffness<Working> stiffness{settings().stiffness.translational.template cast<Working>(),
-                                       settings().stiffness.rotational.template cast<Working>()};
-    tick_.wrench = stiffness.wrench(scene_.idle_turns().motion_between(target, follower_.pose())).template cast<Scalar>();
-    tick_.contacts.clear();
-    follower_.report(scene_, tick_);
-  }
+  bool is_free_at(const Pose<Working>& pose) const noexcept;
+  void report(const Pose<Working>& target) noexcept;
 
   RenderedScene<Tool> scene_;
   Follower follower_;
   bool is_reset_ = false;
   Tick<Scalar> tick_;
 };
+
+// Defined out of the class, so not inline: `extern template class` keeps them, and all that they use, out of a file.
+
+template <RigidTool ToolType, QpSolver Solver, ContactMethod<ToolType, Solver> Method>
+HapticRenderer<ToolType, Solver, Method>::HapticRenderer(const TriangleMesh<Scalar>& object, const Tool& tool,
+                                                         const Settings<Scalar>& settings)
+    : scene_(object, tool, settings) {}
+
+template <RigidTool ToolType, QpSolver Solver, ContactMethod<ToolType, Solver> Method>
+Status HapticRenderer<ToolType, Solver, Method>::reset(const Pose<Scalar>& pose) noexcept {
+  is_reset_ = false;
+  tick_ = {};
+  if (!pose.is_finite()) return tick_.status = Status::not_finite;
+  tick_.graphic_pose = pose.normalized();
+  const Pose<Working> reference_pose = scene_.reference_pose(pose);
+  if (!is_free_at(reference_pose)) return tick_.status = Status::penetrating;
+  follower_.reset(scene_, reference_pose);
+  is_reset_ = true;
+  return tick_.status = Status::converged;
+}
+
+template <RigidTool ToolType, QpSolver Solver, ContactMethod<ToolType, Solver> Method>
+const Tick<typename ToolType::Scalar>& HapticRenderer<ToolType, Solver, Method>::update(const Pose<Scalar>& haptic_pose) noexcept {
+  if (!haptic_pose.is_finite()) {
+    tick_.path.clear();
+    tick_.status = Status::not_finite;
+    return tick_;
+  }
+  if (!is_reset_) {
+    tick_ = {};
+    tick_.graphic_pose = haptic_pose.normalized();
+    return tick_;
+  }
+  const Pose<Working> target = scene_.reference_pose(haptic_pose);
+  tick_.work = 0;
+  tick_.path.clear();
+  tick_.status = follower_.follow(scene_, target, tick_);
+  report(target);
+  return tick_;
+}
+
+template <RigidTool ToolType, QpSolver Solver, ContactMethod<ToolType, Solver> Method>
+bool HapticRenderer<ToolType, Solver, Method>::is_free_at(const Pose<Working>& pose) const noexcept {
+  int work = 0;
+  MotionCertificate<Tool> certificate;
+  return certificate.certify(scene_, pose, {}, work, std::numeric_limits<int>::max()).blockers.empty();
+}
+
+template <RigidTool ToolType, QpSolver Solver, ContactMethod<ToolType, Solver> Method>
+void HapticRenderer<ToolType, Solver, Method>::report(const Pose<Working>& target) noexcept {
+  tick_.graphic_pose = scene_.tool_pose(follower_.pose());
+  const Stiffness<Working> stiffness{settings().stiffness.translational.template cast<Working>(),
+                                     settings().stiffness.rotational.template cast<Working>()};
+  tick_.wrench = stiffness.wrench(scene_.idle_turns().motion_between(target, follower_.pose())).template cast<Scalar>();
+  tick_.contacts.clear();
+  follower_.report(scene_, tick_);
+}
 
 template <RigidTool Tool>
 HapticRenderer(const TriangleMesh<typename Tool::Scalar>&, const Tool&) -> HapticRenderer<Tool>;

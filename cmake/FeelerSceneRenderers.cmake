@@ -1,0 +1,4 @@
+# feeler-scene-renderers: the renderers of the scenes' tools, compiled once for the tests, benchmarks and the demo.
+add_library(feeler-scene-renderers STATIC ${PROJECT_SOURCE_DIR}/bench/scenes/renderers.cpp)
+target_include_directories(feeler-scene-renderers PUBLIC ${PROJECT_SOURCE_DIR}/bench)
+target_link_libraries(feeler-scene-renderers PUBLIC feeler::feeler PRIVATE feeler_development)
