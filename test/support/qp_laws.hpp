@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <functional>
 #include <limits>
 #include <random>
 #include <string>
@@ -347,15 +348,18 @@ void check_answer(const feeler::QpProblem<Scalar>& problem, feeler::QpStatus sta
   }
 }
 
-/// Checks a solver against the definition of its answers on random and on special problems.
-template <feeler::QpSolver Solver>
-void check_qp_laws(unsigned seed = 1, int problems_per_family = 300, const QpPromise& promise = {}) {
-  using Scalar = typename Solver::Scalar;
+/// A solver, whatever its type: the laws are compiled once a scalar.
+template <class Scalar>
+using Solve = std::function<feeler::QpStatus(const feeler::QpProblem<Scalar>&, feeler::QpSolution<Scalar>&)>;
+
+/// As `check_qp_laws`.
+/// @param solve_with_other  another one of the same solver
+template <class Scalar>
+void check_laws(const Solve<Scalar>& solve, const Solve<Scalar>& solve_with_other, unsigned seed, int problems_per_family, const QpPromise& promise) {
   using Problem = feeler::QpProblem<Scalar>;
   using Solution = feeler::QpSolution<Scalar>;
   BOOST_TEST_MESSAGE("seed " << seed);
   std::mt19937 bits(seed);
-  Solver solver, other;
   Solution solution, again;
   int feasible = 0, infeasible = 0, unfinished = 0;
 
@@ -363,17 +367,17 @@ void check_qp_laws(unsigned seed = 1, int problems_per_family = 300, const QpPro
     for (int i = 0; i < problems_per_family; ++i) {
       const double scale = magnitude(bits, -6, 3);
       const Problem problem = random_problem<Scalar>(bits, family, scale);
-      const feeler::QpStatus status = solver.solve(problem, solution);
+      const feeler::QpStatus status = solve(problem, solution);
       (status == feeler::QpStatus::optimal           ? feasible
        : status == feeler::QpStatus::iteration_limit ? unfinished
                                                      : infeasible)++;
       check_answer(problem, status, solution, scale,
                    "family " + std::to_string(family) + " problem " + std::to_string(i), promise);
       // The same input gives the same bits: with a solver that knows it, and with one that knows another.
-      BOOST_TEST((solver.solve(problem, again) == status));
+      BOOST_TEST((solve(problem, again) == status));
       BOOST_TEST(is_same(solution, again));
-      other.solve(random_problem<Scalar>(bits, 0, 1), again);
-      BOOST_TEST((other.solve(problem, again) == status));
+      solve_with_other(random_problem<Scalar>(bits, 0, 1), again);
+      BOOST_TEST((solve_with_other(problem, again) == status));
       BOOST_TEST(is_same(solution, again));
     }
   }
@@ -387,7 +391,7 @@ void check_qp_laws(unsigned seed = 1, int problems_per_family = 300, const QpPro
   problem.clear_rows();
   const Wide6 free = Eigen::FullPivLU<WideMatrix>(-WideProblem(problem).hessian).solve(WideProblem(problem).gradient);
   for (const Scalar& bound : {Scalar(0), Scalar(-1)}) {
-    BOOST_TEST((solver.solve(problem, solution) == feeler::QpStatus::optimal));
+    BOOST_TEST((solve(problem, solution) == feeler::QpStatus::optimal));
     BOOST_TEST((solution.step.template cast<WideReal>() - free).norm() <=
                1e6L * rounding_of<Scalar>() * free.norm());
     BOOST_TEST(solution.active.empty());
@@ -396,7 +400,7 @@ void check_qp_laws(unsigned seed = 1, int problems_per_family = 300, const QpPro
   }
   problem.clear_rows();
   problem.add_row(feeler::Vector6<Scalar>::Zero(), Scalar(1));
-  const feeler::QpStatus impossible = solver.solve(problem, solution);
+  const feeler::QpStatus impossible = solve(problem, solution);
   BOOST_TEST((impossible != feeler::QpStatus::optimal));
   if (promise.names_conflicts) {
     BOOST_TEST((impossible == feeler::QpStatus::infeasible));
@@ -413,7 +417,7 @@ void check_qp_laws(unsigned seed = 1, int problems_per_family = 300, const QpPro
       problem.add_row(contact_row<Scalar>(random_direction(bits), 0.1 * random_vector(bits)),
                       Scalar(-0.1 * fraction(bits)));
     BOOST_TEST(!problem.add_row(feeler::Vector6<Scalar>::Zero(), Scalar(0)));
-    const feeler::QpStatus status = solver.solve(problem, solution);
+    const feeler::QpStatus status = solve(problem, solution);
     BOOST_TEST(is_valid(problem, solution, promise));
     if (status == feeler::QpStatus::iteration_limit && !promise.decides_many_rows) continue;
     BOOST_TEST((status == feeler::QpStatus::optimal));
@@ -427,7 +431,7 @@ void check_qp_laws(unsigned seed = 1, int problems_per_family = 300, const QpPro
     if (i == 0) problem.hessian.setZero();
     if (i == 1) problem.hessian(4, 4) = -problem.hessian(4, 4);
     if (i == 2) problem.hessian.row(2).setZero(), problem.hessian.col(2).setZero();
-    BOOST_TEST((solver.solve(problem, solution) == feeler::QpStatus::not_positive_definite));
+    BOOST_TEST((solve(problem, solution) == feeler::QpStatus::not_positive_definite));
     BOOST_TEST(solution.step.isZero(Scalar(0)));
     BOOST_TEST(is_valid(problem, solution, promise));
   }
@@ -444,13 +448,24 @@ void check_qp_laws(unsigned seed = 1, int problems_per_family = 300, const QpPro
         if (place % 4 == 1) problem.gradient[i] = bad;
         if (place % 4 == 2) problem.rows[row][i] = bad;
         if (place % 4 == 3) problem.bounds[row] = bad;
-        const feeler::QpStatus status = solver.solve(problem, solution);
+        const feeler::QpStatus status = solve(problem, solution);
         BOOST_TEST(is_valid(problem, solution, promise));
         // Truth: a problem with no number in its objective has no optimum.
         if (place % 4 < 2) BOOST_TEST((status != feeler::QpStatus::optimal));
       }
     }
   }
+}
+
+/// Checks a solver against the definition of its answers on random and on special problems.
+template <feeler::QpSolver Solver>
+void check_qp_laws(unsigned seed = 1, int problems_per_family = 300, const QpPromise& promise = {}) {
+  using Scalar = typename Solver::Scalar;
+  const auto of = [](auto& solver) {
+    return [&solver](const feeler::QpProblem<Scalar>& problem, feeler::QpSolution<Scalar>& solution) { return solver.solve(problem, solution); };
+  };
+  Solver solver, other;
+  check_laws<Scalar>(of(solver), of(other), seed, problems_per_family, promise);
 }
 
 }  // namespace feeler_test
