@@ -1,4 +1,4 @@
-// The renderers of the scenes' tools, compiled in renderers.cpp alone: a file with three of them takes a third of the time.
+// The renderers of the scenes' tools and their derivatives, compiled in renderers.cpp alone: a file with three of them takes a third of the time.
 #pragma once
 
 #include "feeler/render/haptic_renderer.hpp"

@@ -17,7 +17,8 @@ inline double spectral_radius(Eigen::Matrix3d a) {
   for (int squaring = 0; squaring <= 50; ++squaring) {
     const double size = a.norm();
     logarithm += share * std::log(size);
-    a = Eigen::Matrix3d(a / size) * (a / size);
+    a /= size;
+    a *= a;
     share /= 2;
   }
   return std::exp(logarithm);
