@@ -15,6 +15,8 @@
 #include "feeler/adapter/qpoases.hpp"
 #endif
 
+BOOST_AUTO_TEST_SUITE(outside_qp_solvers)
+
 namespace {
 
 template <class Solver>
@@ -31,8 +33,6 @@ feeler_test::QpPromise promise_of_library(double least_decided) {
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(outside_qp_solvers)
 
 #ifdef FEELER_HAS_DAQP
 BOOST_AUTO_TEST_CASE(every_answer_of_daqp_obeys_the_laws_of_a_qp_solver) {

@@ -13,6 +13,8 @@
 #include "scenes/cavity.hpp"
 #include "scenes/renderers.hpp"
 
+BOOST_AUTO_TEST_SUITE(denormals)
+
 using namespace feeler;
 
 namespace {
@@ -61,8 +63,6 @@ std::vector<double> ticks_in_a_cavity() {
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(denormals)
 
 BOOST_AUTO_TEST_CASE(flushing_them_would_change_no_bit_of_a_tick) {
   const std::vector<double> as_it_is = ticks_in_a_cavity();

@@ -16,6 +16,8 @@
 #include "stand_in/stand_in.hpp"
 #include "stand_in/virtuose_stand_in.hpp"
 
+BOOST_AUTO_TEST_SUITE(force_watchdog)
+
 using feeler::DeviceState;
 using feeler::DeviceStatus;
 using feeler::DeviceWrench;
@@ -57,8 +59,6 @@ feeler::ServoLoop* loop_of_test = nullptr;
 constexpr DeviceWrench some_push{{1, 2, -1}, {0.01, 0, 0.02}};
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(force_watchdog)
 
 BOOST_AUTO_TEST_CASE(a_renderer_that_hangs_is_let_go_of_on_every_device_and_comes_back_by_the_ramp) {
   for (const auto& [make, rate] : {std::pair(&open_haptics, 1000.0), std::pair(&force_dimension, 1000.0),

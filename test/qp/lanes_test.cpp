@@ -1,6 +1,3 @@
-// Vectors wider than the compiler's flags allow are passed in memory here; no other program meets them.
-#pragma GCC diagnostic ignored "-Wpsabi"
-
 #include "feeler/qp/lanes.hpp"
 
 #include <boost/test/unit_test.hpp>
