@@ -101,10 +101,11 @@ class RenderedScene {
     const Pose<Scalar> pose = tool_pose.template cast<Scalar>().normalized();
     return {pose * reference_, pose.rotation};
   }
-  Pose<MeshScalar> tool_pose(const Pose<Scalar>& pose) const noexcept {
-    const Pose<Scalar> tool{pose.translation - pose.rotation * reference_, pose.rotation};
-    return tool.template cast<MeshScalar>();
+  /// Pose of the tool frame, from the pose of the reference point.
+  Pose<Scalar> tool_frame(const Pose<Scalar>& pose) const noexcept {
+    return {pose.translation - pose.rotation * reference_, pose.rotation};
   }
+  Pose<MeshScalar> tool_pose(const Pose<Scalar>& pose) const noexcept { return tool_frame(pose).template cast<MeshScalar>(); }
   /// A piece of the tool on a motion of the whole.
   MovingTool<Piece> moving(int i, const Pose<Scalar>& from, const Twist<Scalar>& motion) const noexcept {
     return {piece(i), reference_, radii_[index(i)], from, motion};
