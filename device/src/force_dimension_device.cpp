@@ -7,6 +7,7 @@
 #include <chrono>
 #include <cmath>
 #include <cstring>
+#include <memory>
 #include <thread>
 #include <utility>
 
@@ -120,14 +121,12 @@ DeviceSpecification preset_of(int system_type) {
   }
 }
 
-}  // namespace
-
-class ForceDimensionDevice::Driver {
+class ForceDimensionDriver final : public Device {
  public:
-  Driver(ForceDimensionSettings settings, Clock* clock)
+  ForceDimensionDriver(ForceDimensionSettings settings, Clock* clock)
       : settings_(std::move(settings)), clock_(clock != nullptr ? *clock : monotonic_clock_) {}
 
-  OpenResult open() {
+  OpenResult open() override {
     if (is_open_) return {};
     if (std::string problem = library_.load(settings_.libraries); !problem.empty())
       return {std::move(problem)};
@@ -138,9 +137,9 @@ class ForceDimensionDevice::Driver {
     is_lost_ = false;
     complaint_ = {};
     opened_at_ = clock_.now();
-    specification = preset_of(library_.system_type(device_));
-    if (!library_.has_wrist(device_)) specification.is_sensed = {true, true, true, false, false, false};
-    if (!library_.has_active_wrist(device_)) specification.lose_torque();
+    specification_ = preset_of(library_.system_type(device_));
+    if (!library_.has_wrist(device_)) specification_.is_sensed = {true, true, true, false, false, false};
+    if (!library_.has_active_wrist(device_)) specification_.lose_torque();
     if (std::string problem = switch_on(); !problem.empty()) {
       close();
       return {std::move(problem)};
@@ -148,7 +147,7 @@ class ForceDimensionDevice::Driver {
     return {};
   }
 
-  DeviceStatus read(DeviceState& state) noexcept {
+  DeviceStatus read(DeviceState& state) noexcept override {
     if (!is_open_) return DeviceStatus::not_open;
     const auto turn = library_calls_.turn();
     if (turn && (is_lost_ || take_pose() < 0)) return DeviceStatus::fault;
@@ -157,15 +156,16 @@ class ForceDimensionDevice::Driver {
     return DeviceStatus::ok;
   }
 
-  DeviceStatus write(const DeviceWrench& wrench) noexcept {
+  DeviceStatus write(const DeviceWrench& wrench) noexcept override {
     if (!is_open_) return DeviceStatus::not_open;
     const bool is_good = is_finite(wrench);
     const auto turn = library_calls_.turn();
     if (!turn) return is_good ? DeviceStatus::ok : DeviceStatus::not_finite;  // just now it is let go
     const bool pushes = is_good && !is_lost_ && !is_let_go_.load(std::memory_order_relaxed);
     // A lost device is told to let go as long as somebody asks it to push.
-    const int answer = push(
-        pushes ? limited(wrench, specification.maximum_force, specification.maximum_torque) : DeviceWrench{});
+    const int answer =
+        push(pushes ? limited(wrench, specification_.maximum_force, specification_.maximum_torque)
+                    : DeviceWrench{});
     if (is_lost_) return DeviceStatus::fault;
     if (answer < 0) return lose(library_.last_error());
     if (answer == motors_saturated)
@@ -173,12 +173,12 @@ class ForceDimensionDevice::Driver {
     return is_good ? DeviceStatus::ok : DeviceStatus::not_finite;
   }
 
-  void let_go() noexcept {
+  void let_go() noexcept override {
     is_let_go_.store(true, std::memory_order_relaxed);  // before the turn: a write that comes after it knows
     if (const auto turn = library_calls_.turn(); turn && is_open_) push({});
   }
 
-  void close() noexcept {
+  void close() noexcept override {
     if (!is_open_) return;
     push({});
     library_.enable_force(0, device_);
@@ -186,9 +186,9 @@ class ForceDimensionDevice::Driver {
     is_open_ = false;
   }
 
-  const char* complaint() const noexcept { return complaint_.data(); }
+  const char* complaint() const noexcept override { return complaint_.data(); }
 
-  DeviceSpecification specification = omega_6();
+  const DeviceSpecification& specification() const noexcept override { return specification_; }
 
  private:
   std::string refusal() const {
@@ -214,7 +214,7 @@ class ForceDimensionDevice::Driver {
       if (wait == 1000) return "Force Dimension: no pose came within a second: check the USB cable.";
       std::this_thread::sleep_for(std::chrono::milliseconds(1));
     }
-    if (library_.set_max_force(specification.maximum_force, device_) < 0 ||
+    if (library_.set_max_force(specification_.maximum_force, device_) < 0 ||
         library_.set_gravity_compensation(1, device_) < 0 || push({}) < 0 ||
         library_.enable_force(1, device_) < 0) {
       const char* const error = library_.last_error();
@@ -254,7 +254,7 @@ class ForceDimensionDevice::Driver {
     double t[3];
     maker_frame::to_maker(wrench.force, f);
     maker_frame::to_maker(wrench.torque, t);
-    if (!specification.pushes_torque()) std::fill(t, t + 3, 0.0);
+    if (!specification_.pushes_torque()) std::fill(t, t + 3, 0.0);
     return library_.set_wrench(f[0], f[1], f[2], t[0], t[1], t[2], device_);
   }
 
@@ -268,6 +268,7 @@ class ForceDimensionDevice::Driver {
   void say(const char* text) noexcept { std::strncpy(complaint_.data(), text, complaint_.size() - 1); }
 
   ForceDimensionSettings settings_;
+  DeviceSpecification specification_ = omega_6();
   MonotonicClock monotonic_clock_;
   Clock& clock_;
   Library library_;
@@ -281,31 +282,9 @@ class ForceDimensionDevice::Driver {
   std::array<char, 200> complaint_ = {};
 };
 
+}  // namespace
+
 ForceDimensionDevice::ForceDimensionDevice(ForceDimensionSettings settings, Clock* clock)
-    : driver_(std::make_unique<Driver>(std::move(settings), clock)) {}
-ForceDimensionDevice::~ForceDimensionDevice() {
-  close();
-}
-OpenResult ForceDimensionDevice::open() {
-  return driver_->open();
-}
-DeviceStatus ForceDimensionDevice::read(DeviceState& state) noexcept {
-  return driver_->read(state);
-}
-DeviceStatus ForceDimensionDevice::write(const DeviceWrench& wrench) noexcept {
-  return driver_->write(wrench);
-}
-void ForceDimensionDevice::let_go() noexcept {
-  driver_->let_go();
-}
-void ForceDimensionDevice::close() noexcept {
-  driver_->close();
-}
-const DeviceSpecification& ForceDimensionDevice::specification() const noexcept {
-  return driver_->specification;
-}
-const char* ForceDimensionDevice::complaint() const noexcept {
-  return driver_->complaint();
-}
+    : DrivenDevice(std::make_unique<ForceDimensionDriver>(std::move(settings), clock)) {}
 
 }  // namespace feeler

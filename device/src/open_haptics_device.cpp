@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <memory>
 #include <thread>
 #include <utility>
 
@@ -49,14 +50,12 @@ bool is_plausible(double figure) noexcept {
   return figure > 0 && figure < 1e6;
 }
 
-}  // namespace
-
-class OpenHapticsDevice::Driver {
+class OpenHapticsDriver final : public Device {
  public:
-  Driver(OpenHapticsSettings settings, Clock* clock)
+  OpenHapticsDriver(OpenHapticsSettings settings, Clock* clock)
       : settings_(std::move(settings)), clock_(clock != nullptr ? *clock : monotonic_clock_) {}
 
-  OpenResult open() {
+  OpenResult open() override {
     if (is_open_) return {};
     if (std::string problem = library_.load(settings_.libraries); !problem.empty())
       return {std::move(problem)};
@@ -68,7 +67,7 @@ class OpenHapticsDevice::Driver {
     return {};
   }
 
-  DeviceStatus read(DeviceState& state) noexcept {
+  DeviceStatus read(DeviceState& state) noexcept override {
     if (!is_open_) return DeviceStatus::not_open;
     samples_.fetch(sample_);
     if (sample_.is_lost) return DeviceStatus::fault;
@@ -78,27 +77,28 @@ class OpenHapticsDevice::Driver {
     return complains ? DeviceStatus::warning : DeviceStatus::ok;
   }
 
-  DeviceStatus write(const DeviceWrench& wrench) noexcept {
+  DeviceStatus write(const DeviceWrench& wrench) noexcept override {
     if (!is_open_) return DeviceStatus::not_open;
     const bool is_good = is_finite(wrench);
     Command command;
-    if (is_good) command.wrench = limited(wrench, specification.maximum_force, specification.maximum_torque);
+    if (is_good)
+      command.wrench = limited(wrench, specification_.maximum_force, specification_.maximum_torque);
     command.errors_known = errors_read_;
     commands_.store(command);
     if (sample_.is_lost) return DeviceStatus::fault;
     return is_good ? DeviceStatus::ok : DeviceStatus::not_finite;
   }
 
-  void close() noexcept {
+  void close() noexcept override {
     if (!is_open_) return;
     commands_.store({});
     is_open_ = false;
     release();
   }
 
-  const char* complaint() const noexcept { return sample_.complaint; }
+  const char* complaint() const noexcept override { return sample_.complaint; }
 
-  DeviceSpecification specification = phantom_premium_3_0_6dof();
+  const DeviceSpecification& specification() const noexcept override { return specification_; }
 
  private:
   /// Everything from the handle to the first pose. @return what went wrong
@@ -121,7 +121,7 @@ class OpenHapticsDevice::Driver {
     if (std::string problem = calibrate(); !problem.empty()) return problem;
     if (std::string problem = ask(); !problem.empty()) return problem;
     library_.enable(force_output);
-    callback_ = library_.schedule_asynchronous(&Driver::frame_of, this, highest_priority);
+    callback_ = library_.schedule_asynchronous(&OpenHapticsDriver::frame_of, this, highest_priority);
     is_scheduled_ = true;
     library_.start_scheduler();
     if (const unsigned int error = drain_errors(); error != success) {
@@ -190,15 +190,15 @@ class OpenHapticsDevice::Driver {
       return "OpenHaptics: the device does not say what it is: " + text_of(error);
     }
     const std::string name = model != nullptr ? model : "";
-    specification = preset_of(name);
-    if (!name.empty()) specification.name = name;
+    specification_ = preset_of(name);
+    if (!name.empty()) specification_.name = name;
     if (is_plausible(stiffness))
-      specification.stiffness = std::min(specification.stiffness, 1000 * stiffness);
-    if (is_plausible(force)) specification.maximum_force = force;
+      specification_.stiffness = std::min(specification_.stiffness, 1000 * stiffness);
+    if (is_plausible(force)) specification_.maximum_force = force;
     if (is_plausible(continuous))
-      specification.continuous_force = std::min(continuous, specification.maximum_force);
-    if (rate > 0) specification.nominal_rate = rate;
-    if (degrees < 6) specification.lose_torque();
+      specification_.continuous_force = std::min(continuous, specification_.maximum_force);
+    if (rate > 0) specification_.nominal_rate = rate;
+    if (degrees < 6) specification_.lose_torque();
     return {};
   }
 
@@ -211,7 +211,7 @@ class OpenHapticsDevice::Driver {
     if (handle_ != invalid_handle) {
       library_.begin_frame(handle_);
       library_.set_doubles(current_force, no_push);
-      if (specification.pushes_torque()) library_.set_doubles(current_torque, no_push);
+      if (specification_.pushes_torque()) library_.set_doubles(current_torque, no_push);
       library_.end_frame(handle_);
       library_.disable(force_output);
       library_.disable_device(handle_);
@@ -220,7 +220,9 @@ class OpenHapticsDevice::Driver {
     drain_errors();
   }
 
-  static unsigned int frame_of(void* driver) noexcept { return static_cast<Driver*>(driver)->frame(); }
+  static unsigned int frame_of(void* driver) noexcept {
+    return static_cast<OpenHapticsDriver*>(driver)->frame();
+  }
 
   /// One frame, on the servo thread of libHD.
   unsigned int frame() noexcept {
@@ -252,7 +254,7 @@ class OpenHapticsDevice::Driver {
 
   void push(const DeviceWrench& wrench) noexcept {
     library_.set_doubles(current_force, wrench.force);
-    if (!specification.pushes_torque()) return;
+    if (!specification_.pushes_torque()) return;
     const double millinewton_metres[3] = {1000 * wrench.torque[0], 1000 * wrench.torque[1],
                                           1000 * wrench.torque[2]};
     library_.set_doubles(current_torque, millinewton_metres);
@@ -309,6 +311,7 @@ class OpenHapticsDevice::Driver {
   }
 
   OpenHapticsSettings settings_;
+  DeviceSpecification specification_ = phantom_premium_3_0_6dof();
   MonotonicClock monotonic_clock_;
   Clock& clock_;
   Library library_;
@@ -330,28 +333,9 @@ class OpenHapticsDevice::Driver {
   int frames_unfed_ = 0;  // of the same
 };
 
+}  // namespace
+
 OpenHapticsDevice::OpenHapticsDevice(OpenHapticsSettings settings, Clock* clock)
-    : driver_(std::make_unique<Driver>(std::move(settings), clock)) {}
-OpenHapticsDevice::~OpenHapticsDevice() {
-  close();
-}
-OpenResult OpenHapticsDevice::open() {
-  return driver_->open();
-}
-DeviceStatus OpenHapticsDevice::read(DeviceState& state) noexcept {
-  return driver_->read(state);
-}
-DeviceStatus OpenHapticsDevice::write(const DeviceWrench& wrench) noexcept {
-  return driver_->write(wrench);
-}
-void OpenHapticsDevice::close() noexcept {
-  driver_->close();
-}
-const DeviceSpecification& OpenHapticsDevice::specification() const noexcept {
-  return driver_->specification;
-}
-const char* OpenHapticsDevice::complaint() const noexcept {
-  return driver_->complaint();
-}
+    : DrivenDevice(std::make_unique<OpenHapticsDriver>(std::move(settings), clock)) {}
 
 }  // namespace feeler

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
+#include <memory>
 #include <utility>
 
 #include "feeler/device/shared_library.hpp"
@@ -79,14 +80,12 @@ struct Library {
   }
 };
 
-}  // namespace
-
-class VirtuoseDevice::Driver {
+class VirtuoseDriver final : public Device {
  public:
-  Driver(VirtuoseSettings settings, Clock* clock)
+  VirtuoseDriver(VirtuoseSettings settings, Clock* clock)
       : settings_(std::move(settings)), clock_(clock != nullptr ? *clock : monotonic_clock_) {}
 
-  OpenResult open() {
+  OpenResult open() override {
     if (is_open_) return {};
     if (std::string problem = library_.load(settings_.libraries); !problem.empty())
       return {std::move(problem)};
@@ -107,7 +106,7 @@ class VirtuoseDevice::Driver {
     return {};
   }
 
-  DeviceStatus read(DeviceState& state) noexcept {
+  DeviceStatus read(DeviceState& state) noexcept override {
     if (!is_open_) return DeviceStatus::not_open;
     const auto turn = library_calls_.turn();
     if (turn && (is_lost_ || !take_pose())) return DeviceStatus::fault;
@@ -122,26 +121,27 @@ class VirtuoseDevice::Driver {
     return DeviceStatus::warning;
   }
 
-  DeviceStatus write(const DeviceWrench& wrench) noexcept {
+  DeviceStatus write(const DeviceWrench& wrench) noexcept override {
     if (!is_open_) return DeviceStatus::not_open;
     const bool is_good = is_finite(wrench);
     const auto turn = library_calls_.turn();
     if (!turn) return is_good ? DeviceStatus::ok : DeviceStatus::not_finite;  // just now it is let go
     const bool pushes = is_good && !is_lost_ && !is_hindered_ && !is_let_go_.load(std::memory_order_relaxed);
-    const bool is_done = push(
-        pushes ? limited(wrench, specification.maximum_force, specification.maximum_torque) : DeviceWrench{});
+    const bool is_done =
+        push(pushes ? limited(wrench, specification_.maximum_force, specification_.maximum_torque)
+                    : DeviceWrench{});
     if (is_lost_) return DeviceStatus::fault;
     if (!is_done)
       return lose("The controller does not take the force: check its network cable and its emergency stop.");
     return is_good ? DeviceStatus::ok : DeviceStatus::not_finite;
   }
 
-  void let_go() noexcept {
+  void let_go() noexcept override {
     is_let_go_.store(true, std::memory_order_relaxed);  // before the turn: a write that comes after it knows
     if (const auto turn = library_calls_.turn(); turn && is_open_) push({});
   }
 
-  void close() noexcept {
+  void close() noexcept override {
     if (!is_open_) return;
     push({});
     library_.set_power_on(context_, 0);
@@ -150,9 +150,9 @@ class VirtuoseDevice::Driver {
     is_open_ = false;
   }
 
-  const char* complaint() const noexcept { return complaint_; }
+  const char* complaint() const noexcept override { return complaint_; }
 
-  DeviceSpecification specification = virtuose_6d();
+  const DeviceSpecification& specification() const noexcept override { return specification_; }
 
  private:
   std::string error() const {
@@ -176,8 +176,8 @@ class VirtuoseDevice::Driver {
     step("the observation frame", [&] { return library_.set_observation_frame(context_, identity); });
     step("impedance mode", [&] { return library_.set_command_type(context_, impedance); });
     step("the saturation", [&] {
-      return library_.saturate_torque(context_, static_cast<float>(specification.maximum_force),
-                                      static_cast<float>(specification.maximum_torque));
+      return library_.saturate_torque(context_, static_cast<float>(specification_.maximum_force),
+                                      static_cast<float>(specification_.maximum_torque));
     });
     step("a force of zero", [&] { return push({}) ? 0 : 1; });
     step("power", [&] { return library_.set_power_on(context_, 1); });
@@ -255,6 +255,7 @@ class VirtuoseDevice::Driver {
   }
 
   VirtuoseSettings settings_;
+  DeviceSpecification specification_ = virtuose_6d();
   MonotonicClock monotonic_clock_;
   Clock& clock_;
   Library library_;
@@ -269,31 +270,9 @@ class VirtuoseDevice::Driver {
   const char* complaint_ = "";
 };
 
+}  // namespace
+
 VirtuoseDevice::VirtuoseDevice(VirtuoseSettings settings, Clock* clock)
-    : driver_(std::make_unique<Driver>(std::move(settings), clock)) {}
-VirtuoseDevice::~VirtuoseDevice() {
-  close();
-}
-OpenResult VirtuoseDevice::open() {
-  return driver_->open();
-}
-DeviceStatus VirtuoseDevice::read(DeviceState& state) noexcept {
-  return driver_->read(state);
-}
-DeviceStatus VirtuoseDevice::write(const DeviceWrench& wrench) noexcept {
-  return driver_->write(wrench);
-}
-void VirtuoseDevice::let_go() noexcept {
-  driver_->let_go();
-}
-void VirtuoseDevice::close() noexcept {
-  driver_->close();
-}
-const DeviceSpecification& VirtuoseDevice::specification() const noexcept {
-  return driver_->specification;
-}
-const char* VirtuoseDevice::complaint() const noexcept {
-  return driver_->complaint();
-}
+    : DrivenDevice(std::make_unique<VirtuoseDriver>(std::move(settings), clock)) {}
 
 }  // namespace feeler

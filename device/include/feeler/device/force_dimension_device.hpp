@@ -1,12 +1,11 @@
 // Devices of Force Dimension through its DHD library: omega, sigma, lambda, delta, and the Novint Falcon.
 #pragma once
 
-#include <memory>
 #include <string>
 #include <vector>
 
 #include "feeler/device/clock.hpp"
-#include "feeler/device/device.hpp"
+#include "feeler/device/driven_device.hpp"
 
 namespace feeler {
 
@@ -21,26 +20,12 @@ struct ForceDimensionSettings {
 ///
 /// The library's base frame is x to the user, y right, z up; poses and wrenches are turned into ours here.
 /// Its gravity compensation is switched on, and lives on every tick being written. A device without a driven
-/// wrist is force-only.
-class ForceDimensionDevice final : public Device {
+/// wrist is force-only. A pose that it has not renewed since the last `read` keeps its time; that is no
+/// error. Its specification is that of an omega.6 until `open` asks the device.
+class ForceDimensionDevice final : public DrivenDevice {
  public:
   /// @param clock  stamps the poses, outlives the device; none is CLOCK_MONOTONIC
   explicit ForceDimensionDevice(ForceDimensionSettings settings = {}, Clock* clock = nullptr);
-  ~ForceDimensionDevice() override;
-
-  OpenResult open() override;
-  /// A pose that the device has not renewed since the last call keeps its time; that is no error.
-  DeviceStatus read(DeviceState& state) noexcept override;
-  DeviceStatus write(const DeviceWrench& wrench) noexcept override;
-  void let_go() noexcept override;
-  void close() noexcept override;
-  /// An omega.6 until `open` asks the device.
-  const DeviceSpecification& specification() const noexcept override;
-  const char* complaint() const noexcept override;
-
- private:
-  class Driver;
-  std::unique_ptr<Driver> driver_;
 };
 
 }  // namespace feeler

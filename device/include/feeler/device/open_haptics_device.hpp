@@ -1,12 +1,11 @@
 // Devices of 3D Systems through OpenHaptics: Phantom Premium, Touch and Touch X.
 #pragma once
 
-#include <memory>
 #include <string>
 #include <vector>
 
 #include "feeler/device/clock.hpp"
-#include "feeler/device/device.hpp"
+#include "feeler/device/driven_device.hpp"
 
 namespace feeler {
 
@@ -26,25 +25,14 @@ struct OpenHapticsSettings {
 ///
 /// Millimetres and millinewton metres end here. The torque goes out in base axes (HD_CURRENT_TORQUE), never
 /// as joint torques of the gimbal.
-class OpenHapticsDevice final : public Device {
+///
+/// `open` waits up to a second for the first pose. A device that can calibrate itself does so; one that needs
+/// a hand for it is refused, as its poses would be wrong. Its specification is that of a Phantom Premium
+/// 3.0/6DOF until `open` asks the device.
+class OpenHapticsDevice final : public DrivenDevice {
  public:
   /// @param clock  stamps the poses, outlives the device; none is CLOCK_MONOTONIC
   explicit OpenHapticsDevice(OpenHapticsSettings settings = {}, Clock* clock = nullptr);
-  ~OpenHapticsDevice() override;
-
-  /// Waits up to a second for the first pose. A device that can calibrate itself does so. Refuses one that
-  /// needs a hand for it: its poses would be wrong.
-  OpenResult open() override;
-  DeviceStatus read(DeviceState& state) noexcept override;
-  DeviceStatus write(const DeviceWrench& wrench) noexcept override;
-  void close() noexcept override;
-  /// A Phantom Premium 3.0/6DOF until `open` asks the device.
-  const DeviceSpecification& specification() const noexcept override;
-  const char* complaint() const noexcept override;
-
- private:
-  class Driver;
-  std::unique_ptr<Driver> driver_;
 };
 
 }  // namespace feeler

@@ -1,12 +1,11 @@
 // Devices of Haption through its Virtuose library: Virtuose 6D, 6D Desktop and their relatives.
 #pragma once
 
-#include <memory>
 #include <string>
 #include <vector>
 
 #include "feeler/device/clock.hpp"
-#include "feeler/device/device.hpp"
+#include "feeler/device/driven_device.hpp"
 
 namespace feeler {
 
@@ -23,25 +22,12 @@ struct VirtuoseSettings {
 /// The library speaks single precision, in the frame x to the user, y right, z up; both end here. Its own
 /// indexing is off: clutching belongs to the workspace map. While its emergency stop is pressed, its power
 /// off or its dead man's switch released, it pushes nothing and every `read` is a warning, so that the force
-/// comes back by the ramp and not at once.
-class VirtuoseDevice final : public Device {
+/// comes back by the ramp and not at once. The library does not say which model it is: the specification is
+/// that of a Virtuose 6D, cut to what SOFA lets it push.
+class VirtuoseDevice final : public DrivenDevice {
  public:
   /// @param clock  stamps the poses, outlives the device; none is CLOCK_MONOTONIC
   explicit VirtuoseDevice(VirtuoseSettings settings = {}, Clock* clock = nullptr);
-  ~VirtuoseDevice() override;
-
-  OpenResult open() override;
-  DeviceStatus read(DeviceState& state) noexcept override;
-  DeviceStatus write(const DeviceWrench& wrench) noexcept override;
-  void let_go() noexcept override;
-  void close() noexcept override;
-  /// The library does not say which model it is: a Virtuose 6D, cut to what SOFA lets it push.
-  const DeviceSpecification& specification() const noexcept override;
-  const char* complaint() const noexcept override;
-
- private:
-  class Driver;
-  std::unique_ptr<Driver> driver_;
 };
 
 }  // namespace feeler
