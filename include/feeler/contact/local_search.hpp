@@ -63,15 +63,15 @@ class LocalSearch {
       : tool_(tool), mesh_(mesh), pose_(pose), axes_(pose.rotation.toRotationMatrix()), reach_(reach) {}
 
   /// The triangles that share a corner with one, itself first.
-  FixedVector<int, ring_capacity> ring(int triangle) const noexcept {
+  static FixedVector<int, ring_capacity> ring(const TriangleMesh<MeshScalar>& mesh, int triangle) noexcept {
     FixedVector<int, ring_capacity> result;
     result.push_back(triangle);
-    const auto& corners = mesh_.triangle(triangle);
+    const auto& corners = mesh.triangle(triangle);
     for (int i = 0; i < result.size(); ++i) {
       for (int k = 0; k < 3; ++k) {
-        const int other = mesh_.topology().neighbour(result[i], k);
+        const int other = mesh.topology().neighbour(result[i], k);
         if (other < 0 || std::find(result.begin(), result.end(), other) != result.end()) continue;
-        const auto& theirs = mesh_.triangle(other);
+        const auto& theirs = mesh.triangle(other);
         const bool shares = std::any_of(theirs.begin(), theirs.end(), [&](int v) {
           return std::find(corners.begin(), corners.end(), v) != corners.end();
         });
@@ -84,7 +84,7 @@ class LocalSearch {
   void find(const FirstContact<Scalar>& contact, RegionCandidates& region) noexcept {
     region.candidates.clear();
     region.dropped = 0;
-    ring_ = ring(contact.triangle);
+    ring_ = ring(mesh_, contact.triangle);
     if (ring_.full()) ++region.dropped;
     is_behind_ = is_behind(contact);
     gather_tool_neighbours(contact);

@@ -42,8 +42,7 @@ class CandidateContactsFollower {
     pose_ = target_ = pose;
     regions_.clear();
     active_.clear();
-    search_.clear();
-    if constexpr (options.is_certified()) certificate_.clear();
+    certificate_.clear();
   }
 
   Status follow(const Scene& scene, const Pose<Scalar>& target, Tick<MeshScalar>& tick) noexcept {

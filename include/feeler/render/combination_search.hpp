@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <limits>
 #include <utility>
 
@@ -42,10 +41,10 @@ class CombinationSearch {
   /// The solution of one combination.
   struct Solution {
     Pose<Scalar> pose;
-    Scalar energy = Scalar(0);  // [m²]
+    Scalar energy = Scalar(0);  ///< [m²]
     ActiveList active;
-    bool is_capped = false;     // short of the optimum by the trust region
-    bool is_on_features = true; // its contacts lie on the features that they are between
+    bool is_capped = false;     ///< short of the optimum by the trust region
+    bool is_on_features = true; ///< its contacts lie on the features that they are between
 
     /// Those on their features first, and of them the nearest to the haptic pose.
     bool operator<(const Solution& other) const noexcept {
@@ -69,7 +68,6 @@ class CombinationSearch {
   /// Combinations, candidates and constraints left out since then because a bound was reached.
   int dropped() const noexcept { return dropped_; }
 
-  void clear() noexcept { solutions_.clear(); }
   void begin_tick() noexcept { combinations_ = dropped_ = 0; }
 
   static ContactRow<Scalar> row_at(const Scene& scene, const CandidateConstraint& constraint, const Pose<Scalar>& pose) noexcept {

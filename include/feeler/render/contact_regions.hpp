@@ -34,19 +34,10 @@ class ContactRegions {
   /// @param work  grows by the triangles looked at
   void track(const Scene& scene, const Pose<Scalar>& pose, int& work) noexcept {
     const Pose<Scalar> frame = scene.tool_frame(pose);
-    const LocalSearch<Tool, MeshScalar> search(scene.tool(), scene.object(), frame, Scalar(0));
     for (Contact& region : regions_) {
-      Contact nearest = region;
-      Scalar least = std::numeric_limits<Scalar>::infinity();
-      for (const int triangle : search.ring(region.triangle)) {
-        ++work;
-        Contact contact;
-        const Scalar separation = separation_from(scene, triangle, frame, contact);
-        if (!(separation < least)) continue;
-        least = separation;
-        nearest = contact;
-      }
-      region = nearest;
+      const auto neighbourhood = ring(scene, region.triangle);
+      work += neighbourhood.size();
+      separation_from_nearest(scene, neighbourhood, frame, region);
     }
     for (int i = regions_.size() - 1; i > 0; --i) {
       for (int j = 0; j < i; ++j) {
@@ -70,36 +61,26 @@ class ContactRegions {
     OverlappedTriangles overlapped = overlapped_triangles(scene.tool(), scene.object(), to, scene.clearance().touching);
     if (!overlapped.is_complete) ++dropped;
     auto& left = overlapped.triangles;
-    const LocalSearch<Tool, MeshScalar> search(scene.tool(), scene.object(), from, Scalar(0));
     for (const Contact& region : regions_) {
-      const auto ring = search.ring(region.triangle);
+      const auto neighbourhood = ring(scene, region.triangle);
       for (int i = left.size() - 1; i >= 0; --i) {
-        if (std::find(ring.begin(), ring.end(), left[i]) != ring.end()) left.swap_remove(i);
+        if (contains(neighbourhood, left[i])) left.swap_remove(i);
       }
     }
     while (!left.empty()) {
       Contact first;
-      Scalar least = std::numeric_limits<Scalar>::infinity();
-      for (const int triangle : remove_connected(scene, left, left[0])) {
-        Contact contact;
-        const Scalar separation = separation_from(scene, triangle, from, contact);
-        if (!(separation < least)) continue;
-        least = separation;
-        first = contact;
-      }
-      if (least < reach && !regions_.push_back(first)) ++dropped;
+      const Scalar separation = separation_from_nearest(scene, remove_connected(scene, left, left[0]), from, first);
+      if (separation < reach && !regions_.push_back(first)) ++dropped;
     }
   }
 
   /// Blockers near no region become regions; false when there were none.
   bool admit(const Scene& scene, const Pose<Scalar>& pose, const SweepResult<Scalar>& result, int& dropped) noexcept {
     const Pose<Scalar> frame = scene.tool_frame(pose);
-    const LocalSearch<Tool, MeshScalar> search(scene.tool(), scene.object(), frame, Scalar(0));
     bool is_new = false;
     for (const auto& blocker : result.blockers) {
       const bool is_known = std::any_of(regions_.begin(), regions_.end(), [&](const Contact& region) {
-        const auto ring = search.ring(region.triangle);
-        return std::find(ring.begin(), ring.end(), blocker.triangle) != ring.end();
+        return contains(ring(scene, region.triangle), blocker.triangle);
       });
       if (is_known) continue;
       Contact contact;
@@ -131,6 +112,28 @@ class ContactRegions {
 
   static std::size_t index(int i) noexcept { return std::size_t(i); }
 
+  static auto ring(const Scene& scene, int triangle) noexcept {
+    return LocalSearch<Tool, MeshScalar>::ring(scene.object(), triangle);
+  }
+  template <class Triangles>
+  static bool contains(const Triangles& triangles, int triangle) noexcept {
+    return std::find(triangles.begin(), triangles.end(), triangle) != triangles.end();
+  }
+
+  /// Of some triangles, as below, the least separation and the contact there; infinity, and the contact as it was, where there is none.
+  template <class Triangles>
+  static Scalar separation_from_nearest(const Scene& scene, const Triangles& triangles, const Pose<Scalar>& frame,
+                                        Contact& nearest) noexcept {
+    Scalar least = std::numeric_limits<Scalar>::infinity();
+    for (const int triangle : triangles) {
+      Contact contact;
+      const Scalar separation = separation_from(scene, triangle, frame, contact);
+      if (!(separation < least)) continue;
+      least = separation;
+      nearest = contact;
+    }
+    return least;
+  }
   /// Separation of a triangle [m], and the contact it makes: between the tool vertices that are lowest over it and the triangle.
   static Scalar separation_from(const Scene& scene, int triangle, const Pose<Scalar>& frame, Contact& contact) noexcept {
     const Matrix3<Scalar> corners = scene.object().corners(triangle).template cast<Scalar>();
