@@ -213,8 +213,8 @@ class StepProblem {
   struct Regularisation {
     Scalar weight, share;
   };
-  static constexpr std::array<Regularisation, 7> regularisations{
-      {{0, 1}, {8, 1}, {64, 1}, {64, Scalar(15) / 16}, {64, Scalar(3) / 4}, {64, Scalar(1) / 2}, {64, Scalar(1) / 4}}};
+  static constexpr std::array<Regularisation, 8> regularisations{
+      {{0, 1}, {8, 1}, {64, 1}, {1024, 1}, {64, Scalar(15) / 16}, {64, Scalar(3) / 4}, {64, Scalar(1) / 2}, {64, Scalar(1) / 4}}};
 
   Solver solver_;
   Ldlt6<Scalar> factor_;

@@ -1,0 +1,73 @@
+// The step to the optimum, against closed forms for one contact that bends.
+#include "feeler/render/step_problem.hpp"
+
+#include <boost/test/unit_test.hpp>
+
+#include <cmath>
+
+#include "feeler/qp/dual_active_set.hpp"
+
+BOOST_AUTO_TEST_SUITE(step_problem)
+
+using namespace feeler;
+
+namespace {
+
+/// A contact with a floor z = 0, and any curvature.
+struct BentRow : ContactRow<double> {
+  Matrix6<double> bend = Matrix6<double>::Zero();
+  Matrix6<double> curvature() const noexcept { return bend; }
+};
+
+using Problem = StepProblem<DualActiveSet<double>, 8, BentRow>;
+
+/// Solves for the step from a contact that is `short_by` too low, with the hand at `hand` from it.
+Vector6<double> step_of(Problem& problem, double short_by, const Eigen::Vector3d& hand, const Matrix6<double>& bend) {
+  BentRow row;
+  row.gap = -short_by;
+  row.bend = bend;
+  problem.clear();
+  BOOST_TEST_REQUIRE(problem.add(row, 0.0, false));
+  const Metric<double> metric;
+  const Twist<double> graphic_from_haptic{-hand, Eigen::Vector3d::Zero()};
+  problem.project(metric, graphic_from_haptic, 0.0);
+  return problem.bend(metric, graphic_from_haptic, 0.0);
+}
+
+}  // namespace
+
+BOOST_AUTO_TEST_CASE(a_curvature_that_couples_a_slide_with_the_way_across_it_costs_no_exactness) {
+  // s = gap + z + c x z. With z given by the row, the Lagrangian's optimum along it is x = hand + λ c z, whatever the sign of the whole Hessian.
+  Problem problem;
+  const double short_by = 1e-7;
+  const Eigen::Vector3d hand(2e-6, 0, -1e-3);
+  const double multiplier = short_by - hand.z();
+  for (const double coupling : {0.0, 0.9, 4.0, 17.0, 28.0}) {  // λ c
+    Matrix6<double> bend = Matrix6<double>::Zero();
+    bend(0, 2) = bend(2, 0) = coupling / multiplier;
+    const Vector6<double> step = step_of(problem, short_by, hand, bend);
+    BOOST_TEST_CONTEXT("coupling " << coupling) {
+      BOOST_TEST(problem.is_newton());
+      BOOST_TEST(step[2] == short_by, boost::test_tools::tolerance(1e-9));
+      BOOST_TEST(step[0] == hand.x() + coupling * short_by, boost::test_tools::tolerance(1e-9));
+    }
+  }
+}
+
+BOOST_AUTO_TEST_CASE(where_the_tool_is_about_to_slip_off_the_step_is_finite_and_no_shorter_than_without_the_bend) {
+  Problem problem;
+  const Eigen::Vector3d hand(2e-4, 0, -1e-3);
+  for (const double falls_off : {0.96, 1.0, 3.0, 500.0}) {  // less is the Hessian along the slide than the metric's
+    Matrix6<double> bend = Matrix6<double>::Zero();
+    bend(0, 0) = falls_off / -hand.z();
+    const Vector6<double> step = step_of(problem, 0.0, hand, bend);
+    BOOST_TEST_CONTEXT("bent by " << falls_off) {
+      BOOST_TEST(!problem.is_newton());
+      BOOST_TEST(step.allFinite());
+      BOOST_TEST(step[0] >= hand.x());
+      BOOST_TEST(std::abs(step[2]) < 1e-12);
+    }
+  }
+}
+
+BOOST_AUTO_TEST_SUITE_END()
