@@ -333,6 +333,25 @@ BOOST_AUTO_TEST_CASE(a_plane_that_turns_follows_edges_that_roll_where_no_fixed_p
   BOOST_TEST(work == 2);
 }
 
+BOOST_AUTO_TEST_CASE(a_line_that_rolls_over_an_edge_is_followed_to_where_it_lies_flat) {
+  // The line crosses the edge askew and slopes over the triangle by 8 mrad; it turns by 10 mrad until its end comes down on the face. The
+  // common normal turns along the edge as well, so a plane fixed to the line is soon in the ends of the edge.
+  const double half_length = 0.015, slope = 8e-3, turn = 1e-2, gap = 1e-6;
+  const Vector along(std::sqrt(0.5), std::sqrt(0.5), 0), across(-std::sqrt(0.5), std::sqrt(0.5), 0);
+  const feeler::Segment<double> line(-half_length * (along + slope * Vector::UnitZ()), half_length * (along + slope * Vector::UnitZ()));
+  Eigen::Matrix3d corners;
+  corners << 0, 0, 0.03, -0.03, 0.03, 0, -gap, -gap, -gap;
+  const feeler::MovingTool<feeler::Segment<double>> moving(line, Vector::Zero(), half_length, {}, {Vector::Zero(), turn * across});
+  const Clearance<double> clearance;
+  int work = 0;
+  const auto passage = pass(moving, {corners, Vector::Zero(), {}, true}, moving.frame_at(0), moving.frame_at(1), clearance, work);
+  const double meets = (slope + (gap - clearance.kept) / half_length) / turn;
+  BOOST_TEST(passage.is_blocked);
+  BOOST_TEST(passage.time <= meets);
+  BOOST_TEST(passage.time >= meets - 2 * clearance.resolution / moving.length());
+  BOOST_TEST(work <= 20);
+}
+
 BOOST_AUTO_TEST_CASE(
     required_separation_never_exceeds_what_there_is_and_falls_no_further_than_twice_the_allowance) {
   const Clearance<double> clearance;

@@ -104,7 +104,7 @@ bool turning_plane_holds(const MovingTool<Tool>& moving, const Matrix3<typename 
 ///
 /// A plane that separates at both ends of a part of the motion, less its sagitta, separates in between; so does a plane that turns from
 /// one separating normal to another. From the start the motion advances by such parts until the end, or until parts get shorter
-/// than the resolution.
+/// than the resolution; turning planes are looked for by bisection.
 /// @param work  grows by one for each distance query
 /// @cost  0 queries for a plane that holds, 1 to 4 as a rule, at most 25
 template <ConvexTool Tool>
@@ -157,6 +157,8 @@ Passage<typename Tool::Scalar> pass(const MovingTool<Tool>& moving, const Passed
   const Scalar resolution = triangle.is_exact ? clearance.resolution : std::max(clearance.resolution, length / 16);
   const int maximum_steps = triangle.is_exact ? 24 : 10;
   MotionFrame<Scalar> frame = start;
+  Scalar beyond = end.time;  // to where no turning plane is known to hold
+  bool rolls = false;
   for (int step = 0; step < maximum_steps; ++step) {
     const Scalar whole = end.time - frame.time;
     Scalar advance = whole * detail::held_part(moving, corners, plane, frame, end, required, true);
@@ -167,10 +169,25 @@ Passage<typename Tool::Scalar> pass(const MovingTool<Tool>& moving, const Passed
       advance = std::max(advance, shorter * detail::held_part(moving, corners, plane, frame, near_end, required, true));
     }
     if (!(advance < whole)) return {end.time, false, last.normal, warm};
-    const bool is_short = advance * moving.length() < resolution;
-    frame = moving.frame_at(frame.time + advance);
-    if (is_short) break;
-    plane = query(frame, true);
+    const Scalar half = (beyond - frame.time) / 2;
+    if (rolls && half > advance) {
+      const MotionFrame<Scalar> middle = moving.frame_at(frame.time + half);
+      const Plane next = query(middle, true);
+      if (!detail::turning_plane_holds(moving, corners, plane, frame, next, middle, required)) {
+        beyond = middle.time;
+        continue;
+      }
+      frame = middle;
+      plane = next;
+    } else {
+      const bool is_short = advance * moving.length() < resolution;
+      frame = moving.frame_at(frame.time + advance);
+      if (is_short) break;
+      const Plane next = query(frame, true);
+      // The plane gave out, yet the shapes are as far apart: it turns, and a fixed one would follow in tiny steps.
+      rolls = triangle.is_exact && 2 * (next.slack - required) > plane.slack - required;
+      plane = next;
+    }
     if (detail::turning_plane_holds(moving, corners, plane, frame, last, end, required)) return {end.time, false, last.normal, warm};
   }
   return {frame.time, true, plane.normal, warm};
