@@ -170,7 +170,7 @@ Passage<typename Tool::Scalar> pass(const MovingTool<Tool>& moving, const Passed
     }
     if (!(advance < whole)) return {end.time, false, last.normal, warm};
     const Scalar half = (beyond - frame.time) / 2;
-    if (rolls && half > advance) {
+    if (rolls && half > advance && half * moving.length() >= resolution) {
       const MotionFrame<Scalar> middle = moving.frame_at(frame.time + half);
       const Plane next = query(middle, true);
       if (!detail::turning_plane_holds(moving, corners, plane, frame, next, middle, required)) {
