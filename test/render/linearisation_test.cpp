@@ -137,6 +137,28 @@ BOOST_AUTO_TEST_CASE(rows_are_not_carried_far_nor_across_a_plane_of_theirs_nor_a
   BOOST_TEST(!room.lines.start_carried(room.scene, Room::stand(), reach, room.tick));
 }
 
+BOOST_AUTO_TEST_CASE(what_stopped_a_step_can_be_kept_where_it_ended_though_nothing_is_measured_there) {
+  Room room(1e-4, {0, 1, 2, 3});
+  room.lines.start_measured(room.scene, Room::stand(), reach, room.tick);
+  auto& problem = room.lines.problem();
+  const Twist<double> from_hand{Vector(-2e-4, 0, 0), Vector::Zero()};  // the hand is in the wall
+  problem.project(room.scene.metric(), from_hand, room.scene.margin());
+  problem.bend(room.scene.metric(), from_hand, room.scene.margin());
+  BOOST_TEST_REQUIRE(!problem.is_free());
+  const Twist<double> back = Room::along_x(-5e-5);
+  room.lines.remember_stops(back);
+  room.lines.move_to(room.scene, Room::stand(back.linear.x()), true, room.tick);
+  const int measured = problem.row_count();
+  for (int k = 0; k < measured; ++k) BOOST_TEST(problem.row(k).normal.z() == 1, boost::test_tools::tolerance(1e-9));  // the wall is left out
+  BOOST_TEST(room.lines.keep_stops());
+  BOOST_TEST(problem.row_count() > measured);
+  for (int k = measured; k < problem.row_count(); ++k) {
+    BOOST_TEST((problem.row(k).normal + Vector::UnitX()).norm() < 1e-7);
+    BOOST_TEST(problem.row(k).gap == 1.5e-4, boost::test_tools::tolerance(1e-6));
+  }
+  BOOST_TEST(!room.lines.keep_stops());  // they are there
+}
+
 BOOST_AUTO_TEST_CASE(of_pairs_with_the_same_rows_one_has_them_and_when_it_leaves_another_is_measured) {
   Points<double> vertices(8, 3);  // of two floors, one on the other
   vertices << -1, -1, 0, 1, -1, 0, 1, 1, 0, -1, 1, 0, -1, -1, 0, 1, -1, 0, 1, 1, 0, -1, 1, 0;

@@ -84,11 +84,13 @@ class ClosestFeaturesFollower {
 
   /// A step proposed to the certificate.
   struct Proposal {
-    Twist<Scalar> motion;     // from the certified pose
-    bool is_settled = false;   // another linearisation would not change it
-    bool is_capped = false;    // the trust region cut it
-    bool is_free = false;      // no contact holds the tool
-    Scalar restoration = 0;   // energy that it may cost to win the margin back [m²]
+    Twist<Scalar> motion;        // from the certified pose
+    bool is_settled = false;     // another linearisation would not change it
+    bool is_capped = false;      // the trust region cut it
+    bool is_free = false;        // no contact holds the tool
+    bool is_at_rest = false;     // measured where it starts, the tool would stay
+    bool is_taken_back = false;  // its second step took back the first, and what stopped the two holds the tool
+    Scalar restoration = 0;      // energy that it may cost to win the margin back [m²]
   };
 
   /// What is farther away cannot stop the next step [m].
@@ -107,13 +109,13 @@ class ClosestFeaturesFollower {
     }
   }
 
-  /// True when it arrived at a local minimum.
+  /// True when it arrived at a local minimum, or at what two linearisations that contradict each other hold it at.
   bool advance(const Scene& scene, Tick<MeshScalar>& tick) noexcept {
     const Scalar resting = Scalar(scene.settings().step_tolerance) / 500000;
     const int maximum_iterations =
         std::min(scene.settings().maximum_iterations, Tick<MeshScalar>::path_capacity - IdleTurns<typename Scene::Tool>::legs);
     const auto& turns = scene.idle_turns();
-    bool came_to_nothing = false;
+    bool came_to_nothing = false, is_taken_back = false;
     tick.iterations = 0;
     do {
       ++tick.iterations;
@@ -123,8 +125,10 @@ class ClosestFeaturesFollower {
       if (!proposal.is_settled && !came_to_nothing && length < very_short(scene)) {
         // One linearisation takes back what another asks for, as a triangle is missing from both: the first alone will meet it.
         came_to_nothing = true;
+        is_taken_back = proposal.is_taken_back;
         continue;
       }
+      if (came_to_nothing && (is_taken_back || proposal.is_at_rest) && !is_worth_it(scene, proposal.motion)) return true;
       if (length <= resting) return proposal.is_settled && !proposal.is_capped;
       const bool is_nearer = descends(scene, turns.moved(pose_, proposal.motion), proposal.restoration, came_to_nothing);
       came_to_nothing = false;
@@ -168,26 +172,40 @@ class ClosestFeaturesFollower {
     return after <= before + 2 * restoration + scene.margin() * (sqrt(2 * before) + scene.margin());
   }
 
+  /// Whether a motion leads nearer to the target by more than a tenth of the margin is worth.
+  bool is_worth_it(const Scene& scene, const Twist<Scalar>& motion) const noexcept {
+    using std::sqrt;
+    const auto& turns = scene.idle_turns();
+    const Scalar before = scene.metric().energy(turns.motion_between(target_, pose_));
+    const Scalar after = scene.metric().energy(turns.motion_between(target_, turns.moved(pose_, motion)));
+    return after < before - scene.margin() / 10 * sqrt(2 * before);
+  }
+
   /// Solves for the motion from the certified pose, linearising again where the first step ends.
   Proposal propose(const Scene& scene, int rounds, Tick<MeshScalar>& tick) noexcept {
     const auto& turns = scene.idle_turns();
     auto& problem = linearisation_.problem();
     Proposal proposal;
     Pose<Scalar> pose = pose_;
-    bool rests_on_assumption = false;
+    bool rests_on_assumption = false, is_taken_back = false;
     Scalar previous(0);
+    Twist<Scalar> previous_step;
     for (int round = 0; round < rounds && !budget_.ends_motion(tick.work, round); ++round) {
       const bool is_measured = linearise(scene, pose, round == 0, rounds > 1, !rests_on_assumption, tick);
       solve(scene, pose, proposal.is_capped, tick);
       if (round == 0) proposal.restoration = problem.cost_of_restoration();
       if (round > 0) keep_contacts(scene, pose, proposal.is_capped, tick);
+      if (previous > very_short(scene) && !proposal.is_capped && reconcile(scene, pose, previous_step, tick) && round == 1) is_taken_back = true;
       linearisation_.note_tight_pairs();
       linearisation_.learn_passed(scene, tick);
       auto step = Twist<Scalar>::from_vector(problem.solution().step);
       const Scalar last = scene.length_of(step, pose);
+      if (round == 0) proposal.is_at_rest = is_measured && last < very_short(scene) / 100;
       const Scalar longest = limits_.longest(linearisation_.is_empty());
       // Where the optimum is flat a step may be of more than a turn, of which a pose would not know the direction.
       if (!proposal.is_capped && last > 2 * longest) step = step * (2 * longest / last);
+      linearisation_.remember_stops(step);
+      previous_step = step;
       const Pose<Scalar> linearised = pose;
       pose = turns.moved(pose, step);
       proposal.motion = turns.motion_between(pose_, pose);
@@ -206,6 +224,7 @@ class ClosestFeaturesFollower {
       const bool is_short = last < Scalar(scene.settings().step_tolerance) && (shrinks_fast || last < very_short(scene));
       previous = last;
       const bool rests_on_kept = problem.rests_on_kept();
+      proposal.is_taken_back = is_taken_back && rests_on_kept && last < very_short(scene) && !proposal.is_capped;
       proposal.is_settled =
           (is_short && is_measured && !rests_on_assumption && !rests_on_kept && problem.keeps_features()) || proposal.is_free;
       if (proposal.is_settled || proposal.is_capped || (is_short && rests_on_kept)) return proposal;
@@ -265,6 +284,17 @@ class ClosestFeaturesFollower {
       project(scene, pose, is_capped, tick);
       if (!is_capped) bend(scene, pose, tick);
     }
+  }
+
+  /// Where a step goes back on the last one, each linearisation lacks what stopped the other: solves again with what stopped the last.
+  bool reconcile(const Scene& scene, const Pose<Scalar>& pose, const Twist<Scalar>& last_step, Tick<MeshScalar>& tick) noexcept {
+    const auto step = Twist<Scalar>::from_vector(problem().solution().step);
+    const Metric<Scalar>& metric = scene.metric();
+    if (!(metric.product(step, last_step) < -metric.energy(last_step) / 2)) return false;
+    if (!linearisation_.keep_stops()) return false;
+    project(scene, pose, false, tick);
+    bend(scene, pose, tick);
+    return true;
   }
 
   SweepResult<Scalar> certify(const Scene& scene, const Twist<Scalar>& motion, Tick<MeshScalar>& tick) noexcept {

@@ -3,6 +3,7 @@
 
 #include "feeler/contact/contact_patch.hpp"
 #include "feeler/contact/working_set.hpp"
+#include "feeler/core/fixed_vector.hpp"
 #include "feeler/core/scalar.hpp"
 #include "feeler/object/surface_walk.hpp"
 #include "feeler/object/triangle_normal.hpp"
@@ -116,6 +117,24 @@ class Linearisation {
   /// Adds the rows of the start that a motion from there would break; false if it breaks none.
   bool keep_broken(const Scene& scene, const Twist<Scalar>& motion) noexcept {
     return kept_.keep_broken(scene.idle_turns().motion_between(start_, pose_), motion, scene.margin(), problem_);
+  }
+
+  /// Remembers what stopped a step, but for what was assumed, where the step ends.
+  void remember_stops(const Twist<Scalar>& step) noexcept {
+    stops_.clear();
+    for (const auto& active : problem_.solution().active) {
+      const Row& row = problem_.row(active.row);
+      if (!row.is_assumed) stops_.push_back(row.carried(step));
+    }
+  }
+  /// Adds what stopped the last step to the rows where it ended; false if they have it all.
+  bool keep_stops() noexcept {
+    bool adds = false;
+    for (const Row& row : stops_) {
+      if (problem_.repeats(row)) continue;
+      adds = problem_.keep(row, pairs_[pairs_.find(row.piece, row.triangle)].slack) || adds;
+    }
+    return adds;
   }
 
   /// Remembers which pairs had no room for the margin.
@@ -298,6 +317,7 @@ class Linearisation {
   Pairs pairs_;
   Problem problem_;
   KeptContacts<Row, Problem::row_capacity> kept_;
+  FixedVector<Row, 6> stops_;          // of the last step
   PatchRows<Scalar, Row> patch_rows_;  // of the pair at hand
   Pose<Scalar> start_;                 // where the motion starts
   Pose<Scalar> pose_;                  // where the rows are

@@ -26,12 +26,12 @@ struct Metric {
     return {Vector3<Scalar>::Ones(), Vector3<Scalar>::Constant(length * length)};
   }
 
-  /// ½ eᵀ M e [m²].
-  Scalar energy(const Twist<Scalar>& e) const noexcept {
-    return (e.linear.dot(translational.cwiseProduct(e.linear)) +
-            e.angular.dot(rotational.cwiseProduct(e.angular))) /
-           2;
+  /// aᵀ M b [m²].
+  Scalar product(const Twist<Scalar>& a, const Twist<Scalar>& b) const noexcept {
+    return a.linear.dot(translational.cwiseProduct(b.linear)) + a.angular.dot(rotational.cwiseProduct(b.angular));
   }
+  /// ½ eᵀ M e [m²].
+  Scalar energy(const Twist<Scalar>& e) const noexcept { return product(e, e) / 2; }
 
   /// Gradient of the energy of Exp-moved poses by the step (dp, w) at zero, e = graphic from haptic.
   Vector6<Scalar> gradient(const Twist<Scalar>& e) const noexcept {
