@@ -119,18 +119,20 @@ class Linearisation {
     return kept_.keep_broken(scene.idle_turns().motion_between(start_, pose_), motion, scene.margin(), problem_);
   }
 
-  /// Remembers what stopped a step, but for what was assumed, where the step ends.
+  /// Remembers what stopped a step, but for what was assumed.
   void remember_stops(const Twist<Scalar>& step) noexcept {
     stops_.clear();
+    stopped_ = step;
     for (const auto& active : problem_.solution().active) {
       const Row& row = problem_.row(active.row);
-      if (!row.is_assumed) stops_.push_back(row.carried(step));
+      if (!row.is_assumed) stops_.push_back(row);
     }
   }
   /// Adds what stopped the last step to the rows where it ended; false if they have it all.
   bool keep_stops() noexcept {
     bool adds = false;
-    for (const Row& row : stops_) {
+    for (const Row& stop : stops_) {
+      const Row row = stop.carried(stopped_);
       if (problem_.repeats(row)) continue;
       adds = problem_.keep(row, pairs_[pairs_.find(row.piece, row.triangle)].slack) || adds;
     }
@@ -317,7 +319,8 @@ class Linearisation {
   Pairs pairs_;
   Problem problem_;
   KeptContacts<Row, Problem::row_capacity> kept_;
-  FixedVector<Row, 6> stops_;          // of the last step
+  FixedVector<Row, 6> stops_;          // of the last step, where it began
+  Twist<Scalar> stopped_;              // that step
   PatchRows<Scalar, Row> patch_rows_;  // of the pair at hand
   Pose<Scalar> start_;                 // where the motion starts
   Pose<Scalar> pose_;                  // where the rows are
