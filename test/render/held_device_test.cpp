@@ -154,13 +154,14 @@ BOOST_AUTO_TEST_CASE(a_tool_whose_pose_is_called_converged_is_still_there_a_hund
     scenes::Scene scene;
     int ticks, least_converged;
   };
-  for (const auto& [scene, ticks, least_converged] : {Run{scenes::terrain(224), 3000, 2500}, Run{scenes::sulcus(), 10'000, 9800}, Run{scenes::steps(), 10'000, 9900}}) {
+  for (const Run& run : {Run{scenes::terrain(224), 3000, 2500}, Run{scenes::sulcus(), 10'000, 9800}, Run{scenes::steps(), 10'000, 9900}}) {
+    const scenes::Scene& scene = run.scene;
     const TriangleMesh<double> object(scene.vertices, scene.triangles);
     with_tool_of(scene, [&](const auto& tool) {
       HapticRenderer renderer(object, tool, scene.settings());
       BOOST_TEST_REQUIRE((renderer.reset(scene.start) == Status::converged));
       int converged = 0, left = 0;
-      for (int i = 1; i <= ticks_to_run(ticks); ++i) {
+      for (int i = 1; i <= ticks_to_run(run.ticks); ++i) {
         const Pose<double> haptic = scene.motion(i * 1e-3);
         if (!renderer.update(haptic).converged()) continue;
         ++converged;
@@ -171,7 +172,7 @@ BOOST_AUTO_TEST_CASE(a_tool_whose_pose_is_called_converged_is_still_there_a_hund
         left += moved > 0.5e-14L ? 1 : 0;  // by more than 0.1 µm
       }
       BOOST_TEST_MESSAGE(scene.name << ": " << left << " of " << converged << " poses that were called converged were left");
-      BOOST_TEST(converged > ticks_to_run(least_converged));
+      BOOST_TEST(converged > ticks_to_run(run.least_converged));
       BOOST_TEST(left <= 1);
     });
   }

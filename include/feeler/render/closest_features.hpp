@@ -163,11 +163,15 @@ class ClosestFeaturesFollower {
     return false;
   }
 
+  /// What the optimisation minimises [m²].
+  Scalar energy_at(const Scene& scene, const Pose<Scalar>& pose) const noexcept {
+    return scene.metric().energy(scene.idle_turns().motion_between(target_, pose));
+  }
+
   /// Whether a pose is nearer to the target than the certified one: `strictly`, or but for what it costs to win the margin back.
   bool descends(const Scene& scene, const Pose<Scalar>& pose, Scalar restoration, bool strictly) const noexcept {
     using std::sqrt;
-    const Scalar before = scene.metric().energy(scene.idle_turns().motion_between(target_, pose_));
-    const Scalar after = scene.metric().energy(scene.idle_turns().motion_between(target_, pose));
+    const Scalar before = energy_at(scene, pose_), after = energy_at(scene, pose);
     if (strictly) return after < before;
     return after <= before + 2 * restoration + scene.margin() * (sqrt(2 * before) + scene.margin());
   }
@@ -175,9 +179,7 @@ class ClosestFeaturesFollower {
   /// Whether a motion leads nearer to the target by more than a tenth of the margin is worth.
   bool is_worth_it(const Scene& scene, const Twist<Scalar>& motion) const noexcept {
     using std::sqrt;
-    const auto& turns = scene.idle_turns();
-    const Scalar before = scene.metric().energy(turns.motion_between(target_, pose_));
-    const Scalar after = scene.metric().energy(turns.motion_between(target_, turns.moved(pose_, motion)));
+    const Scalar before = energy_at(scene, pose_), after = energy_at(scene, scene.idle_turns().moved(pose_, motion));
     return after < before - scene.margin() / 10 * sqrt(2 * before);
   }
 
