@@ -106,7 +106,7 @@ bool turning_plane_holds(const MovingTool<Tool>& moving, const Matrix3<typename 
 /// one separating normal to another. From the start the motion advances by such parts until the end, or until parts get shorter
 /// than the resolution; turning planes are looked for by bisection.
 /// @param work  grows by one for each distance query
-/// @cost  0 queries for a plane that holds, 1 to 4 as a rule, at most 25
+/// @cost  0 queries for a plane that holds, 1 to 4 as a rule, at most 27
 template <ConvexTool Tool>
 Passage<typename Tool::Scalar> pass(const MovingTool<Tool>& moving, const PassedTriangle<typename Tool::Scalar>& triangle,
                                     const MotionFrame<typename Tool::Scalar>& start,

@@ -191,13 +191,12 @@ class ClosestFeaturesFollower {
     Pose<Scalar> pose = pose_;
     bool rests_on_assumption = false, is_taken_back = false;
     Scalar previous(0);
-    Twist<Scalar> previous_step;
     for (int round = 0; round < rounds && !budget_.ends_motion(tick.work, round); ++round) {
       const bool is_measured = linearise(scene, pose, round == 0, rounds > 1, !rests_on_assumption, tick);
       solve(scene, pose, proposal.is_capped, tick);
       if (round == 0) proposal.restoration = problem.cost_of_restoration();
       if (round > 0) keep_contacts(scene, pose, proposal.is_capped, tick);
-      if (previous > very_short(scene) && !proposal.is_capped && reconcile(scene, pose, previous_step, tick) && round == 1) is_taken_back = true;
+      if (previous > very_short(scene) && !proposal.is_capped && reconcile(scene, pose, tick) && round == 1) is_taken_back = true;
       linearisation_.note_tight_pairs();
       linearisation_.learn_passed(scene, tick);
       auto step = Twist<Scalar>::from_vector(problem.solution().step);
@@ -207,7 +206,6 @@ class ClosestFeaturesFollower {
       // Where the optimum is flat a step may be of more than a turn, of which a pose would not know the direction.
       if (!proposal.is_capped && last > 2 * longest) step = step * (2 * longest / last);
       linearisation_.remember_stops(step);
-      previous_step = step;
       const Pose<Scalar> linearised = pose;
       pose = turns.moved(pose, step);
       proposal.motion = turns.motion_between(pose_, pose);
@@ -256,6 +254,12 @@ class ClosestFeaturesFollower {
     if (!is_capped) bend(scene, pose, tick);
   }
 
+  /// Solves again with rows that came late.
+  void project_again(const Scene& scene, const Pose<Scalar>& pose, bool is_capped, Tick<MeshScalar>& tick) noexcept {
+    project(scene, pose, is_capped, tick);
+    if (!is_capped) bend(scene, pose, tick);
+  }
+
   /// The step solved for, or as much of it as is trusted.
   Twist<Scalar> trusted_step(const Scene& scene, const Pose<Scalar>& pose) const noexcept {
     const auto step = Twist<Scalar>::from_vector(problem().solution().step);
@@ -283,19 +287,18 @@ class ClosestFeaturesFollower {
     const auto whole = [&] { return turns.motion_between(pose_, turns.moved(pose, Twist<Scalar>::from_vector(problem().solution().step))); };
     linearisation_.release_kept();
     for (int round = 0; round < 2 && linearisation_.keep_broken(scene, whole()); ++round) {
-      project(scene, pose, is_capped, tick);
-      if (!is_capped) bend(scene, pose, tick);
+      project_again(scene, pose, is_capped, tick);
     }
   }
 
   /// Where a step goes back on the last one, each linearisation lacks what stopped the other: solves again with what stopped the last.
-  bool reconcile(const Scene& scene, const Pose<Scalar>& pose, const Twist<Scalar>& last_step, Tick<MeshScalar>& tick) noexcept {
+  bool reconcile(const Scene& scene, const Pose<Scalar>& pose, Tick<MeshScalar>& tick) noexcept {
+    const Twist<Scalar>& last_step = linearisation_.stopped();
     const auto step = Twist<Scalar>::from_vector(problem().solution().step);
     const Metric<Scalar>& metric = scene.metric();
     if (!(metric.product(step, last_step) < -metric.energy(last_step) / 2)) return false;
     if (!linearisation_.keep_stops()) return false;
-    project(scene, pose, false, tick);
-    bend(scene, pose, tick);
+    project_again(scene, pose, false, tick);
     return true;
   }
 

@@ -128,6 +128,8 @@ class Linearisation {
       if (!row.is_assumed) stops_.push_back(row);
     }
   }
+  /// The step last remembered.
+  const Twist<Scalar>& stopped() const noexcept { return stopped_; }
   /// Adds what stopped the last step to the rows where it ended; false if they have it all.
   bool keep_stops() noexcept {
     bool adds = false;
