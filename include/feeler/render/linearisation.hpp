@@ -40,6 +40,7 @@ class Linearisation {
   void clear() noexcept {
     pairs_.clear();
     has_rows_ = false;
+    planes_ = 0;
   }
 
   Pairs& pairs() noexcept { return pairs_; }
@@ -332,7 +333,7 @@ class Linearisation {
   bool assumes_valleys_ = true;
   bool has_rows_ = false;          // since the last `clear`
   bool leaves_out_pairs_ = false;
-  int planes_ = 0;
+  int planes_ = 0;  // looked along since `tick.work` last grew for them
 };
 
 }  // namespace feeler
