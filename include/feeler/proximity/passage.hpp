@@ -172,7 +172,7 @@ Passage<typename Tool::Scalar> pass(const MovingTool<Tool>& moving, const Passed
     const Scalar half = (beyond - frame.time) / 2;
     if (rolls && half > advance && half * moving.length() >= resolution) {
       const MotionFrame<Scalar> middle = moving.frame_at(frame.time + half);
-      const Plane next = query(middle, true);
+      const Plane next = query(middle, touches);
       if (!detail::turning_plane_holds(moving, corners, plane, frame, next, middle, required)) {
         beyond = middle.time;
         continue;

@@ -116,7 +116,7 @@ class StepProblem {
     if (is_free_) return solution_.step;
     projection_ = solution_;
     set_lagrangian_hessian(metric, graphic_from_haptic);
-    solve_relaxing(margin);
+    solve_relaxing(margin, WarmStart(projection_));
     // Without its rows the curvature they were given means nothing.
     if (solution_.active.empty()) solution_ = projection_;
     return solution_.step;
@@ -144,10 +144,11 @@ class StepProblem {
     is_relaxed_.fill(false);
   }
 
-  void solve_relaxing(Scalar margin) noexcept {
+  /// @param start  rows that are likely to be active
+  void solve_relaxing(Scalar margin, const WarmStart& start = {}) noexcept {
     constexpr int maximum_rounds = 8;
     for (int round = 0; round <= maximum_rounds; ++round) {
-      const QpStatus status = solver_.solve(problem_, solution_);
+      const QpStatus status = round == 0 ? solve_from(start) : solver_.solve(problem_, solution_);
       if (status == QpStatus::optimal) return;
       bool has_relaxed = false;
       if (round < maximum_rounds && status == QpStatus::infeasible) {
@@ -165,6 +166,15 @@ class StepProblem {
     if (solver_.solve(problem_, solution_) != QpStatus::optimal) {
       solution_.step.setZero();
       solution_.active.clear();
+    }
+  }
+
+  /// A solver that knows no warm start does without.
+  QpStatus solve_from(const WarmStart& start) noexcept {
+    if constexpr (requires { solver_.solve(problem_, start, solution_); }) {
+      return solver_.solve(problem_, start, solution_);
+    } else {
+      return solver_.solve(problem_, solution_);
     }
   }
 
