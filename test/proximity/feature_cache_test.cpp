@@ -25,4 +25,18 @@ BOOST_AUTO_TEST_CASE(features_are_recalled_for_their_own_triangle_until_another_
   BOOST_TEST(cache.recall(same_place).size == 0);
 }
 
+BOOST_AUTO_TEST_CASE(a_triangle_that_is_not_known_gets_the_features_remembered_last) {
+  feeler::FeatureCache cache;
+  BOOST_TEST(cache.recall_or_guess(7).size == 0);
+  feeler::WitnessFeatures features;
+  features.size = 2;
+  cache.remember(7, features);
+  features.size = 3;
+  cache.remember(8, features);
+  BOOST_TEST(cache.recall_or_guess(7).size == 2);
+  BOOST_TEST(cache.recall_or_guess(9).size == 3);
+  cache.clear();
+  BOOST_TEST(cache.recall_or_guess(9).size == 0);
+}
+
 BOOST_AUTO_TEST_SUITE_END()

@@ -12,12 +12,23 @@ class FeatureCache {
  public:
   static constexpr int capacity = 64;
 
-  void clear() noexcept { entries_.fill({}); }
-  void remember(int triangle, const WitnessFeatures& features) noexcept { entries_[place_of(triangle)] = {triangle, features}; }
+  void clear() noexcept {
+    entries_.fill({});
+    latest_ = {};
+  }
+  void remember(int triangle, const WitnessFeatures& features) noexcept {
+    entries_[place_of(triangle)] = {triangle, features};
+    latest_ = features;
+  }
   /// The features of a triangle, or none.
   WitnessFeatures recall(int triangle) const noexcept {
     const Entry& entry = entries_[place_of(triangle)];
     return entry.triangle == triangle ? entry.features : WitnessFeatures{};
+  }
+  /// The same, or those remembered last: triangles that are met one after the other are near each other.
+  WitnessFeatures recall_or_guess(int triangle) const noexcept {
+    const Entry& entry = entries_[place_of(triangle)];
+    return entry.triangle == triangle && entry.features.size > 0 ? entry.features : latest_;
   }
 
  private:
@@ -28,6 +39,7 @@ class FeatureCache {
   static std::size_t place_of(int triangle) noexcept { return std::size_t(triangle) % capacity; }
 
   std::array<Entry, std::size_t(capacity)> entries_;
+  WitnessFeatures latest_;
 };
 
 }  // namespace feeler

@@ -88,7 +88,7 @@ class Sweep {
       if (work > limit) return give_up(result);
     }
     const auto look_at = [&](int triangle, const Matrix3<Scalar>& corners) {
-      if (!is_among(triangle, known)) examine(triangle, {corners, Vector::Zero(), planes_.features().recall(triangle), false}, clearance_, moving, result, work);
+      if (!is_among(triangle, known)) examine(triangle, {corners, Vector::Zero(), planes_.features().recall_or_guess(triangle), false}, clearance_, moving, result, work);
       return true;
     };
     const auto goes_on = [&](int& low) {  // with a shorter motion

@@ -9,6 +9,7 @@
 #include "feeler/core/scalar.hpp"
 #include "feeler/qp/ldlt6.hpp"
 #include "feeler/qp/qp_solver.hpp"
+#include "feeler/qp/warm_start.hpp"
 #include "feeler/spatial/metric.hpp"
 
 namespace feeler {
@@ -195,28 +196,45 @@ class StepProblem {
   /// Across the active rows the step is fixed, so ½ρ(Jₖd − bₖ)² added for each changes nothing along them (augmented Lagrangian). Where H
   /// has negative curvature along the rows too, the tool is about to slip off: there part of the metric takes its place.
   void set_lagrangian_hessian(const Metric<Scalar>& metric, const Twist<Scalar>& e) noexcept {
+    const Vector6<Scalar> base = metric.hessian({}).diagonal();
+    // Summed before it is subtracted: of contacts between faces much cancels, and does so to the last bit.
     Matrix6<Scalar> curvature = Matrix6<Scalar>::Zero();
-    Matrix6<Scalar> across = Matrix6<Scalar>::Zero();
-    Vector6<Scalar> pull = Vector6<Scalar>::Zero();
-    for (const auto& active : solution_.active) {
-      const Vector6<Scalar>& row = problem_.rows[index(active.row)];
-      curvature += active.multiplier * rows_[active.row].curvature();
-      across += row * row.transpose();
-      pull += problem_.bounds[index(active.row)] * row;
-    }
-    const Matrix6<Scalar> base = metric.hessian({});
+    for (const auto& active : solution_.active) curvature += active.multiplier * rows_[active.row].curvature();
     const Matrix6<Scalar> lagrangian = metric.hessian(e) - curvature;
     const Vector6<Scalar> gradient = problem_.gradient;
+    Matrix6<Scalar> across;
+    Vector6<Scalar> pull;
+    bool has_across = false;
     // Not flatter than a twentieth of the metric: a flatter one makes steps that no linearisation can carry.
+    const Vector6<Scalar> flattest = base * Scalar(0.05);
     for (const auto& [weight, share] : regularisations) {
-      problem_.hessian = share * lagrangian + (Scalar(1) - share) * base + weight * across;
-      if (!factor_.factor(problem_.hessian - base / 20)) continue;
-      problem_.gradient = gradient - weight * pull;
+      if (weight > Scalar(0) && !has_across) {
+        set_across(across, pull);
+        has_across = true;
+      }
+      problem_.hessian = lagrangian;
+      if (weight > Scalar(0)) problem_.hessian = share * lagrangian + weight * across;
+      if (share < Scalar(1)) problem_.hessian.diagonal() += (Scalar(1) - share) * base;
+      Matrix6<Scalar> steeper = problem_.hessian;
+      steeper.diagonal() -= flattest;
+      if (!factor_.factor(steeper)) continue;
+      if (weight > Scalar(0)) problem_.gradient = gradient - weight * pull;
       is_newton_ = share == Scalar(1);
       return;
     }
-    problem_.hessian = base;
+    problem_.hessian = base.asDiagonal();
     is_newton_ = false;
+  }
+
+  /// Σ JₖᵀJₖ and Σ bₖJₖᵀ over the active rows.
+  void set_across(Matrix6<Scalar>& across, Vector6<Scalar>& pull) const noexcept {
+    across.setZero();
+    pull.setZero();
+    for (const auto& active : solution_.active) {
+      const Vector6<Scalar>& row = problem_.rows[index(active.row)];
+      across += row * row.transpose();
+      pull += problem_.bounds[index(active.row)] * row;
+    }
   }
 
   /// Stiffness across the active rows, and share of the Lagrangian in what is left to the metric; the first that will do is taken.
