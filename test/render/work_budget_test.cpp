@@ -93,4 +93,25 @@ BOOST_AUTO_TEST_CASE(a_tick_takes_little_more_work_than_its_budget) {
   check(spline, CompoundTool<ConvexPolytope<double>>::hulls_of(spline.pieces), 8);
 }
 
+BOOST_AUTO_TEST_CASE(a_tool_that_has_far_to_go_does_not_creep_however_little_work_a_tick_may_take) {
+  const auto scene = scenes::terrain(224);
+  const TriangleMesh<double> object(scene.vertices, scene.triangles);
+  for (const int allowed : {20, 25, 40}) {
+    auto settings = scene.settings();
+    settings.work_budget = allowed;
+    HapticRenderer renderer(object, std::get<ConvexPolytope<double>>(scene.tool), settings);
+    BOOST_TEST((renderer.reset(scene.start) == Status::converged));
+    int creeping = 0, longest = 0;  // ticks in a row
+    for (int i = 1; i <= ticks_to_run(15000); ++i) {
+      const Pose<double> from = renderer.tick().graphic_pose;
+      const auto& tick = renderer.update(scene.motion(i * 1e-4));
+      const bool creeps = !tick.converged() && (tick.graphic_pose.translation - from.translation).norm() < 1e-6;
+      creeping = creeps ? creeping + 1 : 0;
+      longest = std::max(longest, creeping);
+    }
+    BOOST_TEST_MESSAGE("budget " << allowed << ": at most " << longest << " ticks in a row without a micrometre of the way left");
+    BOOST_TEST(longest <= 4, "budget " << allowed << ": crept for " << longest << " ticks");
+  }
+}
+
 BOOST_AUTO_TEST_SUITE_END()

@@ -138,8 +138,8 @@ class ClosestFeaturesFollower {
       }
       const auto result = certify(scene, proposal.motion, tick);
       if (result.is_exhausted) {
-        // What was found to block is real, and saves work next time.
-        if (!linearisation_.admit(scene, result)) limits_.shorten(linearisation_.is_empty(), length / 8);
+        // What was found to block is real, and saves work next time. Late in a tick it was work that lacked, not a shorter motion.
+        if (!linearisation_.admit(scene, result) && budget_.is_first_iteration()) limits_.shorten(linearisation_.is_empty(), length / 8);
       } else {
         const bool is_done = result.is_whole() && proposal.is_settled && !proposal.is_capped;
         pose_ = is_done && proposal.is_free ? target_ : turns.moved(pose_, proposal.motion * result.time);

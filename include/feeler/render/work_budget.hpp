@@ -24,6 +24,7 @@ class WorkBudget {
     begun_ = work;
     ++iterations_;
   }
+  bool is_first_iteration() const noexcept { return iterations_ <= 1; }
   /// Whether there is not enough for another iteration.
   bool is_spent(int work) const noexcept { return work + (work - begun_) / 2 > allowed_; }
   /// Whether a motion has to do with the linearisations that it has had; the first motion of a tick may have two of them.
