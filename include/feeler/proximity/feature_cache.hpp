@@ -27,8 +27,8 @@ class FeatureCache {
   }
   /// The same, or those remembered last: triangles that are met one after the other are near each other.
   WitnessFeatures recall_or_guess(int triangle) const noexcept {
-    const Entry& entry = entries_[place_of(triangle)];
-    return entry.triangle == triangle && entry.features.size > 0 ? entry.features : latest_;
+    const WitnessFeatures features = recall(triangle);
+    return features.size > 0 ? features : latest_;
   }
 
  private:

@@ -201,24 +201,28 @@ class StepProblem {
     Matrix6<Scalar> curvature = Matrix6<Scalar>::Zero();
     for (const auto& active : solution_.active) curvature += active.multiplier * rows_[active.row].curvature();
     const Matrix6<Scalar> lagrangian = metric.hessian(e) - curvature;
-    const Vector6<Scalar> gradient = problem_.gradient;
-    Matrix6<Scalar> across;
-    Vector6<Scalar> pull;
-    bool has_across = false;
     // Not flatter than a twentieth of the metric: a flatter one makes steps that no linearisation can carry.
-    const Vector6<Scalar> flattest = base * Scalar(0.05);
+    const auto is_steep_enough = [&] {
+      Matrix6<Scalar> rest = problem_.hessian;
+      rest.diagonal() -= base * Scalar(0.05);
+      return factor_.factor(rest);
+    };
+    problem_.hessian = lagrangian;
+    is_newton_ = true;
+    if (is_steep_enough()) return;
+
+    Matrix6<Scalar> across = Matrix6<Scalar>::Zero();
+    Vector6<Scalar> pull = Vector6<Scalar>::Zero();
+    for (const auto& active : solution_.active) {
+      const Vector6<Scalar>& row = problem_.rows[index(active.row)];
+      across += row * row.transpose();
+      pull += problem_.bounds[index(active.row)] * row;
+    }
     for (const auto& [weight, share] : regularisations) {
-      if (weight > Scalar(0) && !has_across) {
-        set_across(across, pull);
-        has_across = true;
-      }
-      problem_.hessian = lagrangian;
-      if (weight > Scalar(0)) problem_.hessian = share * lagrangian + weight * across;
-      if (share < Scalar(1)) problem_.hessian.diagonal() += (Scalar(1) - share) * base;
-      Matrix6<Scalar> steeper = problem_.hessian;
-      steeper.diagonal() -= flattest;
-      if (!factor_.factor(steeper)) continue;
-      if (weight > Scalar(0)) problem_.gradient = gradient - weight * pull;
+      problem_.hessian = share * lagrangian + weight * across;
+      problem_.hessian.diagonal() += (Scalar(1) - share) * base;
+      if (!is_steep_enough()) continue;
+      problem_.gradient -= weight * pull;
       is_newton_ = share == Scalar(1);
       return;
     }
@@ -226,23 +230,13 @@ class StepProblem {
     is_newton_ = false;
   }
 
-  /// Σ JₖᵀJₖ and Σ bₖJₖᵀ over the active rows.
-  void set_across(Matrix6<Scalar>& across, Vector6<Scalar>& pull) const noexcept {
-    across.setZero();
-    pull.setZero();
-    for (const auto& active : solution_.active) {
-      const Vector6<Scalar>& row = problem_.rows[index(active.row)];
-      across += row * row.transpose();
-      pull += problem_.bounds[index(active.row)] * row;
-    }
-  }
-
-  /// Stiffness across the active rows, and share of the Lagrangian in what is left to the metric; the first that will do is taken.
+  /// Stiffness across the active rows, and share of the Lagrangian in what is left to the metric; the first that will do is taken, where the
+  /// Lagrangian alone does not.
   struct Regularisation {
     Scalar weight, share;
   };
-  static constexpr std::array<Regularisation, 8> regularisations{
-      {{0, 1}, {8, 1}, {64, 1}, {1024, 1}, {64, Scalar(15) / 16}, {64, Scalar(3) / 4}, {64, Scalar(1) / 2}, {64, Scalar(1) / 4}}};
+  static constexpr std::array<Regularisation, 7> regularisations{
+      {{8, 1}, {64, 1}, {1024, 1}, {64, Scalar(15) / 16}, {64, Scalar(3) / 4}, {64, Scalar(1) / 2}, {64, Scalar(1) / 4}}};
 
   Solver solver_;
   Ldlt6<Scalar> factor_;

@@ -24,16 +24,17 @@ class WorkBudget {
     begun_ = work;
     ++iterations_;
   }
+  /// Of the tick: it may have the most work.
   bool is_first_iteration() const noexcept { return iterations_ <= 1; }
   /// Whether there is not enough for another iteration.
   bool is_spent(int work) const noexcept { return work + (work - begun_) / 2 > allowed_; }
   /// Whether a motion has to do with the linearisations that it has had; the first motion of a tick may have two of them.
   bool ends_motion(int work, int linearisations) const noexcept {
-    return work >= allowed_ && linearisations >= (iterations_ > 1 ? 1 : 2);
+    return work >= allowed_ && linearisations >= (is_first_iteration() ? 2 : 1);
   }
   /// Work at which a certificate gives up. The first of a tick has half a budget at least.
   int limit_of_certificate(int work) const noexcept {
-    return std::max(work + allowed_ / (iterations_ > 1 ? 8 : 2), allowed_);
+    return std::max(work + allowed_ / (is_first_iteration() ? 2 : 8), allowed_);
   }
   /// Doubles the budget when it ran out before the tool moved, or before a second iteration, in some ticks in a row; halves it where half
   /// would do.
