@@ -1,4 +1,4 @@
-#include "feeler/qp/lanes.hpp"
+#include "feeler/core/lanes.hpp"
 
 #include <boost/test/unit_test.hpp>
 

@@ -6,9 +6,10 @@
 #include <cmath>
 #include <cstddef>
 
+#include "feeler/core/lanes.hpp"
 #include "feeler/core/scalar.hpp"
 #include "feeler/qp/inverse_hessian.hpp"
-#include "feeler/qp/lanes.hpp"
+#include "feeler/qp/six.hpp"
 
 namespace feeler::detail {
 

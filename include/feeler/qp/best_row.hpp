@@ -5,8 +5,8 @@
 #include <bit>
 #include <cstddef>
 
+#include "feeler/core/lanes.hpp"
 #include "feeler/core/scalar.hpp"
-#include "feeler/qp/lanes.hpp"
 
 namespace feeler::detail {
 

@@ -7,12 +7,13 @@
 #include <cstddef>
 #include <limits>
 
+#include "feeler/core/lanes.hpp"
 #include "feeler/qp/active_operators.hpp"
 #include "feeler/qp/inverse_hessian.hpp"
-#include "feeler/qp/lanes.hpp"
 #include "feeler/qp/problem.hpp"
 #include "feeler/qp/qp_solver.hpp"
 #include "feeler/qp/row_scan.hpp"
+#include "feeler/qp/six.hpp"
 #include "feeler/qp/solution.hpp"
 #include "feeler/qp/warm_start.hpp"
 

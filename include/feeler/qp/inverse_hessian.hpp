@@ -6,8 +6,9 @@
 #include <cstddef>
 #include <limits>
 
+#include "feeler/core/lanes.hpp"
 #include "feeler/core/scalar.hpp"
-#include "feeler/qp/lanes.hpp"
+#include "feeler/qp/six.hpp"
 
 namespace feeler::detail {
 

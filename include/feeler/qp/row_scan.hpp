@@ -7,11 +7,12 @@
 #include <cstddef>
 #include <limits>
 
+#include "feeler/core/lanes.hpp"
 #include "feeler/core/scalar.hpp"
 #include "feeler/qp/best_row.hpp"
 #include "feeler/qp/inverse_hessian.hpp"
-#include "feeler/qp/lanes.hpp"
 #include "feeler/qp/problem.hpp"
+#include "feeler/qp/six.hpp"
 
 namespace feeler::detail {
 

@@ -99,10 +99,26 @@ inline Lanes<Scalar, lanes> with_lane(const Lanes<Scalar, lanes>& group, int lan
   }
 }
 
+/// In each lane −1 where a ≤ b, else 0.
+template <class Scalar, int lanes>
+inline Lanes<LaneBits<Scalar>, lanes> at_most(const Lanes<Scalar, lanes>& a, const Lanes<Scalar, lanes>& b) noexcept {
+  if constexpr (lanes == 1) {
+    return a <= b ? LaneBits<Scalar>(-1) : LaneBits<Scalar>(0);
+  } else {
+    return a <= b;
+  }
+}
+
 template <class Group>
 inline Group greater(const Group& a, const Group& b) noexcept {
   return a > b ? a : b;
 }
+
+template <class Group>
+constexpr bool is_register_of_float = false;
+template <class Group>
+  requires(!std::is_arithmetic_v<Group> && sizeof(Group) <= std::size_t(vector_bytes)) && requires(Group g) { requires sizeof(g[0]) == sizeof(float); }
+constexpr bool is_register_of_float<Group> = true;
 
 /// a·b, rounded before anything is added to it.
 ///
@@ -113,56 +129,22 @@ inline Group product(const Group& a, const Group& b) noexcept {
 #if defined(__clang__)
 #pragma clang fp contract(off)
   return a * b;
-#elif defined(__GNUC__) && __GNUC__ >= 12
+#elif !defined(__GNUC__) || __GNUC__ < 12 || (defined(__x86_64__) && !defined(__FMA__))  // without a way, or without need
+  return a * b;
+#else
   if constexpr (std::is_class_v<Group>) {
     return a * b;
   } else {
-#if defined(__FMA__)
-    if constexpr (has_lanes<Group>) {  // the barrier below does not outlive the vectorising of plain code
+#if defined(__x86_64__)  // the compiler's own barrier takes vectors of float apart, and does not outlive the vectorising of plain code
+    if constexpr (has_lanes<Group> || is_register_of_float<Group>) {
       Group rounded = a * b;
-      __asm__("" : "+x"(rounded));
+      __asm__("" : "+v"(rounded));
       return rounded;
     }
 #endif
     return __builtin_assoc_barrier(a * b);
   }
-#else
-  return a * b;
 #endif
-}
-
-/// Σ aⱼ·bⱼ over j < 6, in an order that is the same wherever it is computed.
-template <class Group, class A, class B>
-inline Group dot_of_six(const A& a, const B& b) noexcept {
-  const Group front = product<Group>(a[0], b[0]) + product<Group>(a[1], b[1]);
-  const Group middle = product<Group>(a[2], b[2]) + product<Group>(a[3], b[3]);
-  const Group back = product<Group>(a[4], b[4]) + product<Group>(a[5], b[5]);
-  return (front + middle) + back;
-}
-
-/// Six numbers, and a matrix by columns.
-template <class Scalar>
-using Six = std::array<Scalar, 6>;
-template <class Scalar>
-using SixBySix = std::array<Six<Scalar>, 6>;
-
-template <class Scalar>
-inline Scalar dot(const Six<Scalar>& a, const Six<Scalar>& b) noexcept {
-  return dot_of_six<Scalar>(a, b);
-}
-/// D·v of a diagonal matrix.
-template <class Scalar>
-inline Six<Scalar> multiply(const Six<Scalar>& diagonal, const Six<Scalar>& v) noexcept {
-  Six<Scalar> image;
-  for (std::size_t j = 0; j < 6; ++j) image[j] = product(diagonal[j], v[j]);
-  return image;
-}
-/// M·v of a symmetric matrix.
-template <class Scalar>
-inline Six<Scalar> multiply(const SixBySix<Scalar>& m, const Six<Scalar>& v) noexcept {
-  Six<Scalar> image;
-  for (std::size_t j = 0; j < 6; ++j) image[j] = dot(m[j], v);
-  return image;
 }
 
 }  // namespace feeler::detail
