@@ -1,8 +1,12 @@
 #include <boost/test/unit_test.hpp>
 
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <cmath>
+#include <cstdint>
+#include <iterator>
+#include <limits>
 #include <random>
 #include <vector>
 
@@ -10,6 +14,8 @@
 
 BOOST_AUTO_TEST_SUITE(bvh)
 
+using feeler::BvhBuilder;
+using feeler::BvhLeaf;
 using feeler::BvhNode;
 using feeler::Points;
 using feeler::TriangleMesh;
@@ -43,69 +49,116 @@ TriangleMesh<Scalar> terrain(int n, Scalar scale = Scalar(1), Scalar offset = Sc
   return TriangleMesh<Scalar>(vertices, triangles);
 }
 
+struct Box {
+  std::array<float, 3> lower, upper;
+
+  bool contains(const Box& other) const {
+    bool contains = true;
+    for (std::size_t k = 0; k < 3; ++k) contains = contains && other.lower[k] >= lower[k] && other.upper[k] <= upper[k];
+    return contains;
+  }
+  double half_area() const {
+    const double x = double(upper[0]) - double(lower[0]), y = double(upper[1]) - double(lower[1]),
+                 z = double(upper[2]) - double(lower[2]);
+    return x * y + y * z + z * x;
+  }
+};
+Box box_of(const BvhNode& node, int i) {
+  return {{node.lower[0][i], node.lower[1][i], node.lower[2][i]}, {node.upper[0][i], node.upper[1][i], node.upper[2][i]}};
+}
+Box box_around(const BvhNode& node) {
+  Box box = box_of(node, 0);
+  for (int i = 1; i < BvhNode::width; ++i) {
+    for (int k = 0; k < 3; ++k) {
+      box.lower[std::size_t(k)] = std::min(box.lower[std::size_t(k)], node.lower[k][i]);
+      box.upper[std::size_t(k)] = std::max(box.upper[std::size_t(k)], node.upper[k][i]);
+    }
+  }
+  return box;
+}
+int triangles_in(const BvhLeaf& leaf) {
+  return int(std::count_if(std::begin(leaf.triangle), std::end(leaf.triangle), [](int t) { return t >= 0; }));
+}
+
+/// Checks the triangles of a leaf against its box and the exact corners.
+template <class Scalar>
+void check_leaf(const TriangleMesh<Scalar>& mesh, const BvhLeaf& leaf, const Box& box, std::vector<int>& seen) {
+  const Wide origin = mesh.bvh().origin().template cast<long double>();
+  bool is_inside = true, is_near = true;
+  for (std::size_t i = 0; i < std::size_t(BvhLeaf::width); ++i) {
+    const bool is_used = leaf.triangle[i] >= 0;
+    const int triangle = is_used ? leaf.triangle[i] : leaf.triangle[std::size_t(triangles_in(leaf) - 1)];
+    if (is_used) ++seen[std::size_t(triangle)];
+    const auto corners = mesh.corners(triangle);
+    for (int c = 0; c < 3; ++c) {
+      for (int axis = 0; axis < 3; ++axis) {
+        const long double exact = static_cast<long double>(corners(axis, c)) - origin[axis];
+        const auto k = std::size_t(axis);
+        is_inside = is_inside && static_cast<long double>(box.lower[k]) <= exact && exact <= static_cast<long double>(box.upper[k]);
+        const auto kept = static_cast<long double>(leaf.corner[c][axis][i]);
+        is_near = is_near && std::abs(kept - exact) <= std::ldexp(std::abs(exact), -24) + std::numeric_limits<float>::denorm_min();
+      }
+    }
+  }
+  BOOST_TEST(is_inside);
+  BOOST_TEST(is_near);
+}
+
 /// Walks from the root; checks the boxes against the exact corners, the leaves, the nesting and the depth.
 template <class Scalar>
 void check_hierarchy(const TriangleMesh<Scalar>& mesh) {
   const auto& bvh = mesh.bvh();
-  const auto nodes = bvh.nodes();
-  const auto order = bvh.triangle_order();
-  const Wide origin = bvh.origin().template cast<long double>();
   std::vector<int> seen(std::size_t(mesh.triangle_count()), 0);
-  std::vector<int> visited(nodes.size(), 0);
+  std::vector<int> node_visits(bvh.nodes().size(), 0), leaf_visits(bvh.leaves().size(), 0);
   struct Entry {
     std::size_t node;
     int depth;
+    Box box;
   };
-  std::vector<Entry> stack{{0, 1}};
-  bool is_nested = true, is_inside = true, is_small = true, is_shallow = true;
+  std::vector<Entry> stack{{0, 1, box_around(bvh.nodes()[0])}};
+  bool is_nested = true, is_shallow = true;
   while (!stack.empty()) {
-    const auto [i, depth] = stack.back();
+    const Entry entry = stack.back();
     stack.pop_back();
-    const BvhNode& node = nodes[i];
-    ++visited[i];
-    is_shallow = is_shallow && depth <= bvh.max_depth;
-    if (!node.is_leaf()) {
-      for (std::size_t child : {std::size_t(node.first), std::size_t(node.first) + 1}) {
-        for (int k = 0; k < 3; ++k)
-          is_nested =
-              is_nested && nodes[child].lower[k] >= node.lower[k] && nodes[child].upper[k] <= node.upper[k];
-        stack.push_back({child, depth + 1});
+    ++node_visits[entry.node];
+    is_shallow = is_shallow && entry.depth <= bvh.max_depth;
+    const BvhNode& node = bvh.nodes()[entry.node];
+    for (int i = 0; i < BvhNode::width; ++i) {
+      const std::int32_t child = node.child[i];
+      const Box box = box_of(node, i);
+      if (child == 0) {
+        is_nested = is_nested && box.lower[0] > box.upper[0];
+        continue;
       }
-      continue;
-    }
-    is_small = is_small && node.count > 0 && node.count <= bvh.max_leaf_size;
-    for (std::int32_t s = node.first; s < node.first + node.count; ++s) {
-      const int triangle = order[std::size_t(s)];
-      ++seen[std::size_t(triangle)];
-      for (int k = 0; k < 3; ++k) {
-        const Wide exact = mesh.corners(triangle).col(k).template cast<long double>() - origin;
-        for (int axis = 0; axis < 3; ++axis)
-          is_inside = is_inside && static_cast<long double>(node.lower[axis]) <= exact[axis] &&
-                      exact[axis] <= static_cast<long double>(node.upper[axis]);
+      is_nested = is_nested && entry.box.contains(box);
+      if (BvhNode::is_leaf(child)) {
+        ++leaf_visits[std::size_t(~child)];
+        check_leaf(mesh, bvh.leaves()[std::size_t(~child)], box, seen);
+      } else {
+        stack.push_back({std::size_t(child), entry.depth + 1, box});
       }
     }
   }
   BOOST_TEST(is_nested);
-  BOOST_TEST(is_inside);
-  BOOST_TEST(is_small);
   BOOST_TEST(is_shallow);
   BOOST_TEST((std::count(seen.begin(), seen.end(), 1) == mesh.triangle_count()));
-  BOOST_TEST((std::count(visited.begin(), visited.end(), 1) == std::ptrdiff_t(nodes.size())));
+  BOOST_TEST((std::count(node_visits.begin(), node_visits.end(), 1) == std::ptrdiff_t(node_visits.size())));
+  BOOST_TEST((std::count(leaf_visits.begin(), leaf_visits.end(), 1) == std::ptrdiff_t(leaf_visits.size())));
 }
 
-double half_area(const float* lower, const float* upper) {
-  const double x = double(upper[0]) - double(lower[0]), y = double(upper[1]) - double(lower[1]),
-               z = double(upper[2]) - double(lower[2]);
-  return x * y + y * z + z * x;
-}
-
-/// Expected number of nodes and triangles met by a random line that meets the root.
+/// Expected number of boxes and triangles met by a random line that meets the root.
 template <class Scalar>
 double surface_area_cost(const TriangleMesh<Scalar>& mesh) {
-  double cost = 0;
-  for (const BvhNode& node : mesh.bvh().nodes())
-    cost += half_area(node.lower, node.upper) * (node.is_leaf() ? 1 + node.count : 1);
-  return cost / half_area(mesh.bvh().nodes()[0].lower, mesh.bvh().nodes()[0].upper);
+  const auto& bvh = mesh.bvh();
+  const double whole = box_around(bvh.nodes()[0]).half_area();
+  double cost = whole;
+  for (const BvhNode& node : bvh.nodes()) {
+    for (int i = 0; i < BvhNode::width && node.child[i] != 0; ++i) {
+      const std::int32_t child = node.child[i];
+      cost += box_of(node, i).half_area() * (BvhNode::is_leaf(child) ? 1 + triangles_in(bvh.leaves()[std::size_t(~child)]) : 1);
+    }
+  }
+  return cost / whole;
 }
 
 /// The same cost of a tree that halves the list along its longest side, by recursion.
@@ -119,8 +172,8 @@ double median_cost(const TriangleMesh<Scalar>& mesh, std::vector<int>::iterator 
   for (auto i = first; i != last; ++i)
     for (int k = 0; k < 3; ++k)
       box.extend((mesh.corners(*i).col(k) - mesh.bvh().origin()).template cast<float>());
-  const double area = half_area(box.min().data(), box.max().data());
-  if (last - first <= mesh.bvh().max_leaf_size) return area * double(1 + (last - first));
+  const double area = Box{{box.min()[0], box.min()[1], box.min()[2]}, {box.max()[0], box.max()[1], box.max()[2]}}.half_area();
+  if (last - first <= BvhLeaf::width) return area * double(1 + (last - first));
   int axis = 0;
   box.sizes().maxCoeff(&axis);
   const auto middle = first + (last - first) / 2;
@@ -170,6 +223,7 @@ BOOST_AUTO_TEST_CASE(random_triangles_of_mixed_sizes_are_each_in_one_leaf) {
 BOOST_AUTO_TEST_CASE(one_triangle_is_one_leaf) {
   const auto mesh = soup({Eigen::Matrix3d::Identity()});
   BOOST_TEST(mesh.bvh().nodes().size() == 1U);
+  BOOST_TEST(mesh.bvh().leaves().size() == 1U);
   check_hierarchy(mesh);
   check_hierarchy(soup({Eigen::Matrix3d::Zero()}));
 }
@@ -177,7 +231,8 @@ BOOST_AUTO_TEST_CASE(one_triangle_is_one_leaf) {
 BOOST_AUTO_TEST_CASE(coincident_triangles_are_halved_to_leaves) {
   const auto mesh = soup(std::vector<Eigen::Matrix3d>(1000, Eigen::Matrix3d::Identity()));
   check_hierarchy(mesh);
-  BOOST_TEST(mesh.bvh().nodes().size() <= 2 * 512U);
+  BOOST_TEST(mesh.bvh().leaves().size() <= 512U);
+  BOOST_TEST(mesh.bvh().nodes().size() <= 512U / 2);
 }
 
 BOOST_AUTO_TEST_CASE(depth_is_bounded_where_every_split_takes_off_a_sliver) {
@@ -189,10 +244,10 @@ BOOST_AUTO_TEST_CASE(depth_is_bounded_where_every_split_takes_off_a_sliver) {
   }
   const auto depth_with = [&items](int limit) {
     auto copy = items;
-    feeler::BvhBuilder builder(copy, limit);
+    const BvhBuilder builder(copy, limit);
     std::vector<int> depths(builder.nodes().size(), 1);
     for (std::size_t i = 0; i < depths.size(); ++i)  // children come after their parent
-      if (const BvhNode& node = builder.nodes()[i]; !node.is_leaf())
+      if (const BvhBuilder::Node& node = builder.nodes()[i]; !node.is_leaf())
         depths[std::size_t(node.first)] = depths[std::size_t(node.first) + 1] = depths[i] + 1;
     return *std::max_element(depths.begin(), depths.end());
   };
@@ -204,8 +259,7 @@ BOOST_AUTO_TEST_CASE(surface_area_cost_is_no_worse_than_that_of_halving) {
   const auto mesh = terrain<double>(100);
   std::vector<int> all(std::size_t(mesh.triangle_count()));
   for (std::size_t i = 0; i < all.size(); ++i) all[i] = int(i);
-  const auto& root = mesh.bvh().nodes()[0];
-  const double median = median_cost(mesh, all.begin(), all.end()) / half_area(root.lower, root.upper);
+  const double median = median_cost(mesh, all.begin(), all.end()) / box_around(mesh.bvh().nodes()[0]).half_area();
   BOOST_TEST_MESSAGE("surface area cost " << surface_area_cost(mesh) << ", halving " << median);
   BOOST_TEST(surface_area_cost(mesh) <= median);
 }

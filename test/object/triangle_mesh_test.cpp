@@ -263,7 +263,7 @@ BOOST_AUTO_TEST_CASE(copies_do_not_refer_to_the_original) {
   original.reset();
   BOOST_TEST(copy.topology().neighbour(0, 2) == 1);
   BOOST_TEST(feeler::vertex_cone_contains<double>(copy, 0, Vector(-1, -1, -1).normalized(), 0.0));
-  BOOST_TEST(copy.bvh().triangle_order().size() == 12U);
+  BOOST_TEST(copy.bvh().leaves().size() >= 3U);
 }
 
 BOOST_AUTO_TEST_CASE(cones_agree_with_the_closest_point) {

@@ -45,7 +45,7 @@ BOOST_AUTO_TEST_CASE(every_triangle_whose_box_meets_the_box_is_visited_once) {
         meeting += own.intersects(box) ? 1 : 0;
         extra += visited == 1 && !own.intersects(box) ? 1 : 0;
       }
-      BOOST_TEST(extra <= feeler::Bvh<double>::max_leaf_size * (meeting + 4));  // those in the same leaf
+      BOOST_TEST(extra <= feeler::BvhLeaf::width * (meeting + 4));  // those in the same leaf
     }
   }
 }

@@ -293,7 +293,7 @@ BOOST_AUTO_TEST_CASE(
   for (int i = 0; i < capacity; ++i) {
     normals.push_back(random_direction(bits));
     BOOST_TEST(cache.add(normals.back(), moving, start, end, 0) == i);
-    for (int k = 0; k < (i == 5 ? 0 : 3 * (i + 1)); ++k) cache.count_hit(i);
+    cache.count_hits(i, i == 5 ? 0 : 3 * (i + 1));
   }
   BOOST_TEST(cache.size() == capacity);
   const Vector late = random_direction(bits);

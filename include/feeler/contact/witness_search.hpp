@@ -51,13 +51,16 @@ class WitnessSearch {
     place(world_from_tool, tolerance);
     next_stamp();
     int count = 0;
-    for_each_near_triangle([&](int triangle) {
+    const Vector shift = mesh_.bvh().origin().template cast<Scalar>() - origin_;
+    const auto is_apart = [&](const std::array<float, 3>& lower, const std::array<float, 3>& upper) { return !is_near(lower, upper, shift); };
+    mesh_.bvh().visit(is_apart, [&](int triangle) {
       const Matrix3<Scalar> corners = corners_of(triangle);
-      if (!may_touch(corners)) return;
+      if (!may_touch(corners)) return true;
       if (count++ >= most_triangles)
         ++dropped_triangles_;
       else
         look_at(triangle, corners, witnesses);
+      return true;
     });
   }
 
@@ -122,31 +125,10 @@ class WitnessSearch {
     stamp_ = 1;
   }
 
-  template <class Visit>
-  void for_each_near_triangle(const Visit& visit) noexcept {
-    const auto& bvh = mesh_.bvh();
-    const auto nodes = bvh.nodes();
-    const auto order = bvh.triangle_order();
-    const Vector shift = bvh.origin().template cast<Scalar>() - origin_;
-    std::array<int, 2 * Bvh<MeshScalar>::max_depth> stack;
-    int depth = 0;
-    stack[std::size_t(depth++)] = 0;
-    while (depth > 0) {
-      const BvhNode& node = nodes[std::size_t(stack[std::size_t(--depth)])];
-      if (!is_near(node, shift)) continue;
-      if (node.is_leaf()) {
-        for (int i = 0; i < node.count; ++i) visit(order[std::size_t(node.first + i)]);
-      } else {
-        stack[std::size_t(depth++)] = node.first + 1;
-        stack[std::size_t(depth++)] = node.first;
-      }
-    }
-  }
-
-  bool is_near(const BvhNode& node, const Vector& shift) noexcept {
+  bool is_near(const std::array<float, 3>& box_lower, const std::array<float, 3>& box_upper, const Vector& shift) noexcept {
     Vector centre, half;
     for (int k = 0; k < 3; ++k) {
-      const Scalar lower = Scalar(node.lower[k]) + shift[k], upper = Scalar(node.upper[k]) + shift[k];
+      const Scalar lower = Scalar(box_lower[std::size_t(k)]) + shift[k], upper = Scalar(box_upper[std::size_t(k)]) + shift[k];
       if (lower > high_[k] || upper < low_[k]) return false;
       centre[k] = (lower + upper) / 2;
       half[k] = (upper - lower) / 2;

@@ -1,4 +1,4 @@
-// Builds a bounding volume hierarchy over boxes, from the top down, by the binned surface area heuristic.
+// Builds a binary tree over boxes, from the top down, by the binned surface area heuristic.
 #pragma once
 
 #include <algorithm>
@@ -10,18 +10,6 @@
 #include <vector>
 
 namespace feeler {
-
-/// A node of a hierarchy: a box relative to the hierarchy's origin, and its two children or its triangles.
-struct BvhNode {
-  float lower[3];
-  float upper[3];
-  std::int32_t
-      first;  ///< inner: the children are the nodes first and first + 1; leaf: position in the triangle order
-  std::int32_t count;  ///< inner: 0; leaf: the number of triangles
-
-  bool is_leaf() const noexcept { return count != 0; }
-};
-static_assert(sizeof(BvhNode) == 32, "two nodes, siblings, share a cache line");
 
 /// A box and the index of what is in it.
 struct BvhItem {
@@ -39,6 +27,17 @@ class BvhBuilder {
  public:
   static constexpr int max_leaf_size = 4;
   static constexpr int max_depth = 64;  ///< nodes on a path from the root to a leaf
+
+  /// A box, and its two children or its items.
+  struct Node {
+    float lower[3];
+    float upper[3];
+    std::int32_t first;  ///< inner: the children are the nodes first and first + 1; leaf: position in the items
+    std::int32_t count;  ///< inner: 0; leaf: the number of items
+
+    bool is_leaf() const noexcept { return count != 0; }
+    float half_area() const noexcept { return BvhBuilder::half_area(lower, upper); }
+  };
 
   /// @param items        at least one; reordered so that leaf items are `items[first..first+count)`
   /// @param depth_limit  nodes on a path; kept unless halving the list alone needs more
@@ -64,10 +63,10 @@ class BvhBuilder {
       tasks.push_back({child + 1, middle, task.end, task.depth + 1});
       tasks.push_back({child, task.begin, middle, task.depth + 1});
     }
-    nodes_.shrink_to_fit();
   }
 
-  std::vector<BvhNode>& nodes() noexcept { return nodes_; }
+  /// The root comes first, children after their parent.
+  const std::vector<Node>& nodes() const noexcept { return nodes_; }
 
  private:
   static constexpr int bin_count = 16;
@@ -88,15 +87,16 @@ class BvhBuilder {
         upper[k] = std::max(upper[k], other_upper[k]);
       }
     }
-    float half_area() const noexcept {
-      const float x = upper[0] - lower[0], y = upper[1] - lower[1], z = upper[2] - lower[2];
-      return x * y + y * z + z * x;
-    }
+    float half_area() const noexcept { return BvhBuilder::half_area(lower.data(), upper.data()); }
   };
   struct Bin {
     Box box;
     std::int32_t count = 0;
   };
+  static float half_area(const float* lower, const float* upper) noexcept {
+    const float x = upper[0] - lower[0], y = upper[1] - lower[1], z = upper[2] - lower[2];
+    return x * y + y * z + z * x;
+  }
   static constexpr float infinity = std::numeric_limits<float>::infinity();
 
   /// Twice the centre of an item; the factor does not matter to a split.
@@ -113,7 +113,7 @@ class BvhBuilder {
       box.extend(item.lower, item.upper);
       centres.extend(c.data(), c.data());
     }
-    BvhNode& node = nodes_[std::size_t(task.node)];
+    Node& node = nodes_[std::size_t(task.node)];
     std::copy(box.lower.begin(), box.lower.end(), node.lower);
     std::copy(box.upper.begin(), box.upper.end(), node.upper);
     return centres;
@@ -193,7 +193,7 @@ class BvhBuilder {
 
   std::vector<BvhItem>& items_;
   int depth_limit_;
-  std::vector<BvhNode> nodes_;
+  std::vector<Node> nodes_;
 };
 
 }  // namespace feeler

@@ -58,7 +58,7 @@ class PlaneCache {
   int size() const noexcept { return size_; }
   const Vector3<Scalar>& normal(int i) const noexcept { return planes_[index(i)].normal; }
   Scalar limit(int i) const noexcept { return planes_[index(i)].limit; }
-  void count_hit(int i) noexcept { ++planes_[index(i)].hits; }
+  void count_hits(int i, int hits) noexcept { planes_[index(i)].hits += hits; }
   void clear() noexcept {
     size_ = 0;
     knows_heights_ = false;

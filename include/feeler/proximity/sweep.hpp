@@ -2,15 +2,18 @@
 #pragma once
 
 #include <algorithm>
-#include <array>
-#include <limits>
+#include <cstddef>
+#include <cstdint>
 #include <span>
+#include <utility>
 
 #include <Eigen/Core>
 
 #include "feeler/core/fixed_vector.hpp"
 #include "feeler/core/scalar.hpp"
+#include "feeler/object/bvh.hpp"
 #include "feeler/object/triangle_mesh.hpp"
+#include "feeler/proximity/coarse_planes.hpp"
 #include "feeler/proximity/gjk.hpp"
 #include "feeler/proximity/motion.hpp"
 #include "feeler/proximity/passage.hpp"
@@ -65,8 +68,8 @@ class Sweep {
   using Scalar = typename Tool::Scalar;
   using Vector = Vector3<Scalar>;
 
-  /// Boxes and triangles tested that count as much work as one distance query.
-  static constexpr int tests_per_work = 24;
+  /// Nodes and leaves of the hierarchy that count as much work as one distance query.
+  static constexpr int nodes_per_work = 16;
 
   Sweep(PlaneCache<Scalar>& planes, const Clearance<Scalar>& clearance) noexcept
       : planes_(planes), from_known_(clearance), clearance_(clearance.from_unknown()) {}
@@ -98,7 +101,9 @@ class Sweep {
       set_end(moving, end_.time / 4);
       return true;
     };
-    return traverse(mesh, moving, work, limit - (limit - work) / 8, look_at, goes_on) ? result : give_up(result);
+    const bool is_done = traverse(mesh, moving, work, limit - (limit - work) / 8, look_at, goes_on);
+    count_hits();
+    return is_done ? result : give_up(result);
   }
 
   /// Whether single planes part the tool over the whole motion from every triangle. They are looked for at its start alone: false may mean
@@ -114,25 +119,18 @@ class Sweep {
       add_plane(start_.rotation * closest.normal, moving);
       return passes(corners);
     };
-    return traverse(mesh, moving, work, limit, is_parted, [](int&) { return false; });
+    const bool is_done = traverse(mesh, moving, work, limit, is_parted, [](int&) { return false; });
+    count_hits();
+    return is_done;
   }
 
  private:
   using Frame = MotionFrame<Scalar>;
-  static constexpr int lanes = 4;
-  using Lanes = Eigen::Array<float, lanes, 1>;
-  /// Planes for boxes, to be tested together.
-  struct BoxPlanes {
-    std::array<Lanes, 3> normal{Lanes::Zero(), Lanes::Zero(), Lanes::Zero()};
-    std::array<Lanes, 3> size = normal;  // the normals' magnitudes
-    Lanes limit = Lanes::Constant(-std::numeric_limits<float>::infinity());  // of no plane: nothing passes
-  };
 
   template <class MeshScalar>
   void begin(const TriangleMesh<MeshScalar>& mesh, const MovingTool<Tool>& moving, Scalar until) noexcept {
     start_ = moving.frame_at(Scalar(0));
-    to_boxes_ = moving.origin() - mesh.bvh().origin().template cast<Scalar>();
-    extent_ = Scalar(mesh.bounds().diagonal().norm());
+    coarse_.begin(moving.origin() - mesh.bvh().origin().template cast<Scalar>(), Scalar(mesh.bounds().diagonal().norm()));
     planes_.age();
     planes_.begin(moving, start_);
     set_end(moving, until);
@@ -144,28 +142,26 @@ class Sweep {
   bool traverse(const TriangleMesh<MeshScalar>& mesh, const MovingTool<Tool>& moving, int& work, int limit, const Visit& visit,
                 const GoesOn& goes_on) noexcept {
     const auto& bvh = mesh.bvh();
-    const auto nodes = bvh.nodes();
-    const auto order = bvh.triangle_order();
-    std::array<int, 128> stack;
-    int depth = 0;
-    int tests = 0;
-    if (!passes(nodes[0])) stack[std::size_t(depth++)] = 0;
-    while (depth > 0) {
-      const auto& node = nodes[std::size_t(stack[std::size_t(--depth)])];
-      if (++tests >= tests_per_work) {
-        tests = 0;
+    FixedVector<std::int32_t, Bvh<MeshScalar>::stack_capacity> stack;
+    stack.push_back(0);
+    int count = 0;
+    while (!stack.empty()) {
+      const std::int32_t entry = stack.back();
+      stack.pop_back();
+      if (++count >= nodes_per_work) {
+        count = 0;
         ++work;
       }
       if (work > limit && !goes_on(limit)) return false;
-      if (node.count == 0) {
-        const int later = is_ahead(nodes[std::size_t(node.first + 1)], nodes[std::size_t(node.first)], moving) ? 1 : 0;
-        for (const int child : {node.first + later, node.first + 1 - later}) {
-          if (!passes(nodes[std::size_t(child)])) stack[std::size_t(depth++)] = child;
-        }
+      if (!BvhNode::is_leaf(entry)) {
+        push_children(bvh.nodes()[std::size_t(entry)], moving, stack);
         continue;
       }
-      for (int i = node.first; i < node.first + node.count; ++i) {
-        const int triangle = order[std::size_t(i)];
+      const BvhLeaf& leaf = bvh.leaves()[std::size_t(~entry)];
+      const auto passed = coarse_.passed(leaf, planes_.size());
+      for (std::size_t i = 0; i < passed.size(); ++i) {
+        const int triangle = leaf.triangle[i];
+        if (passed[i] || triangle < 0) continue;
         const Matrix3<Scalar> corners =
             mesh.corners(triangle).template cast<Scalar>().colwise() - moving.origin();
         if (!passes(corners) && !visit(triangle, corners)) return false;
@@ -174,15 +170,24 @@ class Sweep {
     return true;
   }
 
-  /// Whether the tool comes to a box after another one: an early blocker saves work on all that lies behind it.
-  template <class Node>
-  static bool is_ahead(const Node& box, const Node& other, const MovingTool<Tool>& moving) noexcept {
-    Scalar ahead(0);
-    for (int k = 0; k < 3; ++k) {
-      const auto axis = std::size_t(k);
-      ahead += moving.motion().linear[k] * Scalar((box.lower[axis] - other.lower[axis]) + (box.upper[axis] - other.upper[axis]));
+  /// Those that no plane passes, and on top the one that the tool comes to first: an early blocker saves work on all that lies behind it.
+  template <class Stack>
+  void push_children(const BvhNode& node, const MovingTool<Tool>& moving, Stack& stack) noexcept {
+    const auto passed = coarse_.passed(node, planes_.size());
+    FixedVector<float, BvhNode::width> ahead;  // of those pushed
+    const Vector3<float> motion = moving.motion().linear.template cast<float>();
+    for (std::size_t i = 0; i < passed.size(); ++i) {
+      if (passed[i]) continue;
+      float along = 0.0F;
+      for (std::size_t k = 0; k < 3; ++k) along += motion[int(k)] * (node.lower[k][i] + node.upper[k][i]);
+      stack.push_back(node.child[i]);
+      ahead.push_back(along);
+      for (int at = ahead.size() - 1; at > 0 && ahead[at] > ahead[at - 1]; --at) {
+        const int place = stack.size() - ahead.size() + at;
+        std::swap(ahead[at], ahead[at - 1]);
+        std::swap(stack[place], stack[place - 1]);
+      }
     }
-    return ahead > Scalar(0);
   }
 
   static SweepResult<Scalar> give_up(SweepResult<Scalar>& result) noexcept {
@@ -221,64 +226,28 @@ class Sweep {
   void set_end(const MovingTool<Tool>& moving, Scalar time) noexcept {
     end_ = moving.frame_at(time);
     planes_.end(moving, end_, clearance_.kept);
-    for (std::size_t k = 0; k < 3; ++k) {
-      const Scalar below = planes_.sides()[2 * k].least - clearance_.kept + to_boxes_[int(k)];
-      const Scalar above = planes_.sides()[2 * k + 1].least - clearance_.kept - to_boxes_[int(k)];
-      lower_[k] = round_down(below, below);
-      upper_[k] = -round_down(above, above);
+    const auto& sides = planes_.sides();
+    for (int k = 0; k < 3; ++k) {
+      coarse_.set_sides(k, sides[std::size_t(2 * k)].least - clearance_.kept, clearance_.kept - sides[std::size_t(2 * k + 1)].least);
     }
-    for (int i = 0; i < planes_.size(); ++i) set_box_plane(i);
+    for (int i = 0; i < planes_.size(); ++i) coarse_.set_plane(i, planes_.normal(i), planes_.limit(i));
   }
 
   void add_plane(const Vector& normal, const MovingTool<Tool>& moving) noexcept {
-    set_box_plane(planes_.add(normal, moving, start_, end_, clearance_.kept));
+    count_hits();
+    const int i = planes_.add(normal, moving, start_, end_, clearance_.kept);
+    coarse_.set_plane(i, normal, planes_.limit(i));
   }
 
-  /// Boxes are float and relative to the hierarchy's origin; a plane for them gives away what rounding could gain.
-  void set_box_plane(int i) noexcept {
-    const Vector& normal = planes_.normal(i);
-    BoxPlanes& planes = box_planes_[std::size_t(i / lanes)];
-    for (int k = 0; k < 3; ++k) {
-      planes.normal[std::size_t(k)][i % lanes] = float(normal[k]);
-      planes.size[std::size_t(k)][i % lanes] = std::abs(float(normal[k]));
-    }
-    planes.limit[i % lanes] = round_down(planes_.limit(i) + normal.dot(to_boxes_), extent_);
-  }
-
-  static float round_down(Scalar value, Scalar extent) noexcept {
-    const float rounded = float(value);
-    return rounded - 8 * std::numeric_limits<float>::epsilon() * (std::abs(rounded) + std::abs(float(extent)));
-  }
-
-  template <class Node>
-    requires requires(const Node& node) { node.lower[0]; }
-  bool passes(const Node& node) noexcept {
-    for (std::size_t k = 0; k < 3; ++k) {
-      if (node.upper[k] <= lower_[k] || node.lower[k] >= upper_[k]) return true;
-    }
-    std::array<float, 3> centre, half;
-    for (std::size_t k = 0; k < 3; ++k) {
-      centre[k] = (node.upper[k] + node.lower[k]) / 2;
-      half[k] = (node.upper[k] - node.lower[k]) / 2;
-    }
-    for (int first = 0; first < planes_.size(); first += lanes) {
-      const BoxPlanes& planes = box_planes_[std::size_t(first / lanes)];
-      const Lanes room = planes.limit - (planes.normal[0] * centre[0] + planes.normal[1] * centre[1] + planes.normal[2] * centre[2] +
-                                         planes.size[0] * half[0] + planes.size[1] * half[1] + planes.size[2] * half[2]);
-      if (!(room.maxCoeff() >= 0.0f)) continue;
-      int i = 0;
-      while (!(room[i] >= 0.0f)) ++i;
-      planes_.count_hit(first + i);
-      return true;
-    }
-    return false;
+  void count_hits() noexcept {
+    for (int i = 0; i < planes_.size(); ++i) planes_.count_hits(i, coarse_.take_hits(i));
   }
 
   bool passes(const Matrix3<Scalar>& corners) noexcept {
     for (int i = 0; i < planes_.size(); ++i) {
       const Scalar height = detail::highest(corners, planes_.normal(i));
       if (height <= planes_.limit(i) || planes_.parts_closely(i, height, clearance_)) {
-        planes_.count_hit(i);
+        planes_.count_hits(i, 1);
         return true;
       }
     }
@@ -288,12 +257,9 @@ class Sweep {
   PlaneCache<Scalar>& planes_;
   Clearance<Scalar> from_known_;
   Clearance<Scalar> clearance_;  // from all others
-  Vector to_boxes_;       // to the origin of the motion from that of the boxes [m]
-  Scalar extent_ = Scalar(0);  // of the mesh [m]
   Frame start_;
   Frame end_;
-  std::array<float, 3> lower_{}, upper_{};
-  std::array<BoxPlanes, std::size_t(PlaneCache<Scalar>::capacity / lanes)> box_planes_;
+  CoarsePlanes<Scalar, PlaneCache<Scalar>::capacity> coarse_;
 };
 
 }  // namespace feeler

@@ -1,0 +1,130 @@
+// The planes of a sweep in single precision, held against four boxes or four triangles of a hierarchy at a time.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+
+#include "feeler/core/lanes.hpp"
+#include "feeler/core/scalar.hpp"
+#include "feeler/object/bvh.hpp"
+
+namespace feeler {
+
+/// Planes with normals n and limits, and the sides of a box. A plane passes what is below it, n·y ≤ limit for every y of a box or a
+/// triangle; the sides pass boxes that are beyond one of them. Rounding makes it pass less, never more.
+/// @tparam lanes  how many are computed side by side: 4, 2 or 1; the answers are the same
+template <class Scalar, int capacity, int lanes = std::min(BvhNode::width, detail::lanes_of<float>)>
+class CoarsePlanes {
+ public:
+  static constexpr int width = BvhNode::width;
+  /// Of the boxes of a node, or the triangles of a leaf: not 0 where one has passed.
+  using Passed = std::array<std::int32_t, std::size_t(width)>;
+
+  /// @param to_boxes  what limits and sides are relative to, from the origin of the hierarchy [m]
+  /// @param extent    diagonal of the mesh [m]
+  void begin(const Vector3<Scalar>& to_boxes, Scalar extent) noexcept {
+    to_boxes_ = to_boxes;
+    extent_ = float(extent);
+  }
+
+  void set_sides(int axis, Scalar lower, Scalar upper) noexcept {
+    const auto k = std::size_t(axis);
+    lower_[k] = detail::spread<Group>(rounded_down(lower + to_boxes_[axis]));
+    upper_[k] = detail::spread<Group>(-rounded_down(-upper - to_boxes_[axis]));
+  }
+  /// @param normal  unit
+  void set_plane(int i, const Vector3<Scalar>& normal, Scalar limit) noexcept {
+    Plane& plane = planes_[std::size_t(i)];
+    for (std::size_t k = 0; k < 3; ++k) {
+      const auto component = float(normal[int(k)]);
+      plane.normal[k] = detail::spread<Group>(component);
+      plane.is_upper[k] = component > 0;
+    }
+    plane.limit = detail::spread<Group>(rounded_down(limit + normal.dot(to_boxes_)));
+  }
+  /// What a plane has passed since it was last asked, or set first.
+  int take_hits(int i) noexcept {
+    Plane& plane = planes_[std::size_t(i)];
+    int sum = 0;
+    for (const std::int32_t lane : std::bit_cast<Passed>(plane.hits)) sum += lane;
+    plane.hits = {};
+    return sum;
+  }
+
+  /// @param count  of the planes that are held against them
+  Passed passed(const BvhNode& node, int count) noexcept {
+    Masks beyond{};
+    for (std::size_t k = 0; k < 3; ++k) {
+      for (std::size_t g = 0; g < groups; ++g) {
+        beyond[g] |= at_most(load(node.upper[k], g), lower_[k]) | at_most(upper_[k], load(node.lower[k], g));
+      }
+    }
+    return sift(beyond, count, [&](const Plane& plane, std::size_t g) {
+      const auto farthest = [&](std::size_t k) { return load(plane.is_upper[k] ? node.upper[k] : node.lower[k], g); };
+      return height(plane.normal, farthest(0), farthest(1), farthest(2));
+    });
+  }
+  Passed passed(const BvhLeaf& leaf, int count) noexcept {
+    return sift({}, count, [&](const Plane& plane, std::size_t g) {
+      const auto height_of = [&](const auto& corner) { return height(plane.normal, load(corner[0], g), load(corner[1], g), load(corner[2], g)); };
+      return detail::greater(detail::greater(height_of(leaf.corner[0]), height_of(leaf.corner[1])), height_of(leaf.corner[2]));
+    });
+  }
+
+ private:
+  static constexpr std::size_t groups = std::size_t(width / lanes);
+  using Group = detail::Lanes<float, lanes>;
+  using Mask = detail::Lanes<std::int32_t, lanes>;
+  using Masks = std::array<Mask, groups>;
+
+  struct Plane {
+    std::array<Group, 3> normal;
+    Group limit;
+    Masks hits{};
+    std::array<bool, 3> is_upper;  // the side of a box that is farthest along the normal, by axis
+  };
+
+  static Group load(const float* from, std::size_t group) noexcept { return detail::load<Group>(from + group * std::size_t(lanes)); }
+  static Mask at_most(const Group& a, const Group& b) noexcept { return detail::at_most<float, lanes>(a, b); }
+  static Group height(const std::array<Group, 3>& normal, const Group& x, const Group& y, const Group& z) noexcept {
+    return detail::product(normal[0], x) + detail::product(normal[1], y) + detail::product(normal[2], z);
+  }
+  static bool are_all_set(const Masks& masks) noexcept {
+    const auto halves = std::bit_cast<std::array<std::int64_t, 2>>(masks);
+    return (halves[0] & halves[1]) == -1;
+  }
+
+  template <class HeightAlong>
+  Passed sift(Masks passed, int count, const HeightAlong& height_along) noexcept {
+    constexpr int planes_at_once = 4;
+    for (int first = 0; first < count && !are_all_set(passed); first += planes_at_once) {
+      for (int i = first; i < std::min(first + planes_at_once, count); ++i) {
+        Plane& plane = planes_[std::size_t(i)];
+        for (std::size_t g = 0; g < groups; ++g) {
+          const Mask before = passed[g];
+          passed[g] |= at_most(height_along(plane, g), plane.limit);
+          plane.hits[g] -= passed[g] ^ before;
+        }
+      }
+    }
+    return std::bit_cast<Passed>(passed);
+  }
+
+  /// Gives away what the rounding of normals, corners and heights could gain.
+  float rounded_down(Scalar value) const noexcept {
+    const auto rounded = float(value);
+    return rounded - 8 * std::numeric_limits<float>::epsilon() * (std::abs(rounded) + extent_);
+  }
+
+  Vector3<Scalar> to_boxes_;
+  float extent_;
+  std::array<Group, 3> lower_, upper_;
+  std::array<Plane, std::size_t(capacity)> planes_;
+};
+
+}  // namespace feeler
