@@ -1,9 +1,8 @@
 // The weighted squared distance between two poses that the renderer minimises, with its derivatives.
 #pragma once
 
-#include <cmath>
-
 #include "feeler/core/scalar.hpp"
+#include "feeler/spatial/rotation.hpp"
 #include "feeler/spatial/twist.hpp"
 #include "feeler/spatial/wrench.hpp"
 
@@ -48,8 +47,6 @@ struct Metric {
   ///
   /// For ½|Log(Exp(w) Exp(φ))|² it is aaᵀ + (θ/2) cot(θ/2) (I − aaᵀ), θ = |φ|, a = φ/θ; it vanishes across a at θ = π.
   Matrix6<Scalar> hessian(const Twist<Scalar>& e) const noexcept {
-    using std::sqrt;
-    using std::tan;
     Matrix6<Scalar> h = Matrix6<Scalar>::Zero();
     h.template topLeftCorner<3, 3>() = translational.asDiagonal();
     auto rotation = h.template bottomRightCorner<3, 3>();
@@ -58,16 +55,9 @@ struct Metric {
       rotation = j.transpose() * rotational.asDiagonal() * j;
       return h;
     }
-    const Scalar angle_squared = e.angular.squaredNorm();
-    Scalar across = Scalar(1) - angle_squared / 12;
-    if (angle_squared > Scalar(1e-4)) {
-      const Scalar half = sqrt(angle_squared) / 2;
-      across = half / tan(half);
-    }
-    rotation = Matrix3<Scalar>::Identity() * across;
-    if (angle_squared > Scalar(0)) {
-      rotation += (Scalar(1) - across) / angle_squared * e.angular * e.angular.transpose();
-    }
+    const Scalar angle_squared = e.angular.squaredNorm(), bend = logarithm_bend<Scalar>(angle_squared);
+    rotation = bend * e.angular * e.angular.transpose();
+    rotation.diagonal().array() += Scalar(1) - bend * angle_squared;
     rotation *= rotational.x();
     return h;
   }
