@@ -67,13 +67,13 @@ BOOST_AUTO_TEST_CASE(idle_triangles_leave_after_the_longest_time_and_touching_on
   };
   for (int tick = 1; tick <= 8; ++tick) {
     slack();
-    set.age(8, 4e-6, 1e-2, false);
+    set.age(4e-6, 1e-2, false);
     BOOST_TEST(set.find(0, 1) >= 0);
     BOOST_TEST(set.find(0, 2) >= 0);
     BOOST_TEST((set.find(0, 3) >= 0) == (tick == 1));  // out of reach: one tick of grace
     BOOST_TEST(set[set.find(0, 2)].idle_ticks == tick);
   }
-  set.age(8, 4e-6, 1e-2, false);
+  set.age(4e-6, 1e-2, false);
   BOOST_TEST(set.find(0, 2) == -1);
   BOOST_TEST(set.size() == 1);
 }
@@ -84,9 +84,9 @@ BOOST_AUTO_TEST_CASE(a_touching_pair_that_repeats_others_leaves_like_one_that_do
   set.add(0, 2, Corners::Zero());
   set[0].state = feeler::PairState::has_rows;
   set[1].state = feeler::PairState::repeats;
-  for (int tick = 0; tick < 8; ++tick) set.age(8, 4e-6, 1e-2, false);
+  for (int tick = 0; tick < 8; ++tick) set.age(4e-6, 1e-2, false);
   BOOST_TEST(set.size() == 2);
-  set.age(8, 4e-6, 1e-2, false);
+  set.age(4e-6, 1e-2, false);
   BOOST_TEST(set.size() == 1);
   BOOST_TEST(set[0].triangle == 1);
 }
@@ -95,10 +95,23 @@ BOOST_AUTO_TEST_CASE(a_ghost_that_was_kept_is_kept_on_only_as_long_as_asked) {
   Set set;
   set.add(0, 1, Corners::Zero());
   set[0].keeps_ghost = true;
-  set.age(8, 1, 1, true);
+  set.age(1, 1, true);
   BOOST_TEST(set[0].keeps_ghost);
-  set.age(8, 1, 1, false);
+  set.age(1, 1, false);
   BOOST_TEST(!set[0].keeps_ghost);
+}
+
+BOOST_AUTO_TEST_CASE(what_touches_but_never_holds_leaves_in_the_end) {
+  Set set;
+  for (int triangle = 0; triangle < 2; ++triangle) set.add(0, triangle, Corners::Zero()).state = feeler::PairState::has_rows;
+  for (int tick = 0; tick < Set::longest_unused; ++tick) {
+    if (tick % 100 == 0) set[set.find(0, 1)].note_use();
+    set.age(4e-6, 1e-2, false);
+    BOOST_TEST(set.size() == 2);
+  }
+  set.age(4e-6, 1e-2, false);
+  BOOST_TEST(set.find(0, 0) == -1);
+  BOOST_TEST(set.find(0, 1) == 0);
 }
 
 BOOST_AUTO_TEST_SUITE_END()

@@ -1,9 +1,14 @@
 #include <boost/test/unit_test.hpp>
 
+#if __has_include(<malloc.h>)
+#include <malloc.h>
+#endif
+
 #include <algorithm>
 #include <array>
 #include <chrono>
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
 #include <iterator>
 #include <limits>
@@ -11,6 +16,7 @@
 #include <vector>
 
 #include "feeler/object/triangle_mesh.hpp"
+#include "support/allocation_count.hpp"
 
 BOOST_AUTO_TEST_SUITE(bvh)
 
@@ -182,6 +188,16 @@ double median_cost(const TriangleMesh<Scalar>& mesh, std::vector<int>::iterator 
   return area + median_cost(mesh, first, middle) + median_cost(mesh, middle, last);
 }
 
+/// Bytes; 0 where it is not known.
+std::size_t heap_in_use() {
+#if FEELER_TEST_COUNTS_ALLOCATIONS
+  const auto info = mallinfo2();
+  return info.uordblks + info.hblkhd;
+#else
+  return 0;
+#endif
+}
+
 TriangleMesh<double> soup(const std::vector<Eigen::Matrix3d>& corners) {
   Points<double> vertices(3 * Eigen::Index(corners.size()), 3);
   Triangles triangles(Eigen::Index(corners.size()), 3);
@@ -264,11 +280,14 @@ BOOST_AUTO_TEST_CASE(surface_area_cost_is_no_worse_than_that_of_halving) {
   BOOST_TEST(surface_area_cost(mesh) <= median);
 }
 
-BOOST_AUTO_TEST_CASE(million_triangles_are_built) {
+BOOST_AUTO_TEST_CASE(million_triangles_are_built_in_160_bytes_each) {
+  const std::size_t before = heap_in_use();
   const auto start = std::chrono::steady_clock::now();
   const auto mesh = terrain<double>(708);
   const std::chrono::duration<double> time = std::chrono::steady_clock::now() - start;
-  BOOST_TEST_MESSAGE(mesh.triangle_count() << " triangles in " << time.count() << " s");
+  const double bytes = double(heap_in_use() - before) / mesh.triangle_count();
+  BOOST_TEST_MESSAGE(mesh.triangle_count() << " triangles in " << time.count() << " s, " << bytes << " bytes each");
+  BOOST_TEST(bytes <= 160);
   BOOST_TEST(mesh.triangle_count() == 2 * 707 * 707);
   BOOST_TEST(mesh.report().boundary_edges == 4 * 707);
 }

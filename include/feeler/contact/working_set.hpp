@@ -26,12 +26,15 @@ struct WorkingPair {
   Vector3<Scalar> normal = Vector3<Scalar>::Zero();  ///< world normal that separates at the certified pose, or zero
   Scalar slack = Scalar(0);                          ///< separation there [m]
   Scalar moved = Scalar(0);                          ///< length of motions since that was measured [m]
-  int idle_ticks = 0;       ///< ticks since it held the tool or blocked a motion
+  int idle_ticks = 0;       ///< ticks since it held the tool, blocked a motion or touched
+  int unused_ticks = 0;     ///< ticks since it held the tool or blocked a motion
   PairState state = PairState::left_out;
   bool is_ghost = false;    ///< at the certified pose a neighbour was nearer, and its plane means nothing
   bool is_tight = false;    ///< there was no room for the margin at its last step
   bool keeps_ghost = false; ///< it blocked although its row looked like a ghost: give it a row all the same
 
+  /// It holds the tool, or blocks a motion.
+  void note_use() noexcept { idle_ticks = unused_ticks = 0; }
   bool has_plane() const noexcept { return normal.squaredNorm() > Scalar(0); }
   /// @param separation  along the normal at the certified pose [m]
   void set_plane(const Vector3<Scalar>& normal_world, Scalar separation) noexcept {
@@ -50,6 +53,9 @@ class WorkingSet {
   using Scalar = ScalarType;
   using Pair = WorkingPair<Scalar>;
   static constexpr int capacity = pair_capacity;
+  static constexpr int longest_idle = 8;
+  /// A shaft that fits touches its hole all around, and a few of those triangles hold it.
+  static constexpr int longest_unused = 1000;
 
   int size() const noexcept { return pairs_.size(); }
   Pair& operator[](int i) noexcept { return pairs_[i]; }
@@ -89,14 +95,15 @@ class WorkingSet {
     for (Pair& pair : pairs_) pair.moved += length;
   }
 
-  /// Counts a tick, and drops what has been idle for `longest` ticks or lies more than `reach` away [m]; what lies closer than `touch`
+  /// Counts a tick, and drops what has been idle or unused for too long or lies more than `reach` away [m]; what lies closer than `touch`
   /// is not idle, but for pairs that repeat others.
-  void age(int longest, Scalar touch, Scalar reach, bool goes_on) noexcept {
+  void age(Scalar touch, Scalar reach, bool goes_on) noexcept {
     for (int i = pairs_.size() - 1; i >= 0; --i) {
       Pair& pair = pairs_[i];
       pair.idle_ticks = pair.slack < touch && pair.state != PairState::repeats ? 1 : pair.idle_ticks + 1;
+      ++pair.unused_ticks;
       if (!goes_on) pair.keeps_ghost = false;
-      if (pair.idle_ticks > longest || (pair.idle_ticks > 1 && pair.slack > reach)) pairs_.swap_remove(i);
+      if (pair.idle_ticks > longest_idle || pair.unused_ticks > longest_unused || (pair.idle_ticks > 1 && pair.slack > reach)) pairs_.swap_remove(i);
     }
   }
 

@@ -44,7 +44,7 @@ class ClosestFeaturesFollower {
     target_ = target;
     turn_idly(scene, tick);
     const int idle_legs = tick.path.size();
-    linearisation_.pairs().age(longest_idle, linearisation_.touching(scene), 4 * scene.trust_radius(), goes_on_);
+    linearisation_.pairs().age(linearisation_.touching(scene), 4 * scene.trust_radius(), goes_on_);
     if (!goes_on_) limits_.reset(scene.trust_radius());
     budget_.begin_tick(scene.settings().work_budget);
     goes_on_ = !advance(scene, tick);
@@ -61,7 +61,7 @@ class ClosestFeaturesFollower {
       if (active.row >= problem().row_count()) continue;
       const auto& row = problem().row(active.row);
       const int pair = pairs.find(row.piece, row.triangle);
-      if (pair >= 0) pairs[pair].idle_ticks = 0;
+      if (pair >= 0) pairs[pair].note_use();
       ActiveContact<MeshScalar> contact;
       contact.piece = row.piece;
       contact.triangle = row.triangle;
@@ -79,7 +79,6 @@ class ClosestFeaturesFollower {
   }
 
  private:
-  static constexpr int longest_idle = 8;
   static constexpr int maximum_rounds = 4;  // linearisations for one motion
 
   /// A step proposed to the certificate.

@@ -176,7 +176,7 @@ class Linearisation {
         continue;
       }
       Pair& pair = pairs_[i];
-      pair.idle_ticks = 0;
+      pair.note_use();
       if (pair.state == PairState::left_out || pair.state == PairState::ghost) is_new = true;
       if (pair.state == PairState::ghost) pair.keeps_ghost = true;
     }
