@@ -64,6 +64,7 @@ class ContactPatch {
         assumes_valleys_(assumes_valleys) {}
 
   /// Rows of a triangle with the closest points given; false when it had none but a ghost and that was left out.
+  [[gnu::flatten, gnu::noinline]]
   bool find(int triangle, const Matrix3<Scalar>& corners, const ClosestPoints<Scalar>& closest, bool keep_ghost,
             Rows& rows) noexcept {
     rows.clear();

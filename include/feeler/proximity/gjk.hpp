@@ -40,6 +40,7 @@ struct ClosestPoints {
 /// @cost  noexcept, no allocation, at most 32 support calls, mostly 2 to 5
 template <ConvexTool Tool>
 ClosestPoints<typename Tool::Scalar> gjk(const Tool& tool, const Matrix3<typename Tool::Scalar>& triangle,
+[[gnu::flatten, gnu::noinline]]
                                          const WitnessFeatures& warm,
                                          typename Tool::Scalar touching_distance) noexcept {
   using Scalar = typename Tool::Scalar;
@@ -122,6 +123,7 @@ ClosestPoints<typename Tool::Scalar> gjk(const Tool& tool, const Matrix3<typenam
 /// makes into nanometres: where the triangle's own plane shows as much distance, it is taken.
 template <SweptTool Tool>
 ClosestPoints<typename Tool::Scalar> gjk(const Tool& tool, const Matrix3<typename Tool::Scalar>& triangle,
+[[gnu::flatten, gnu::noinline]]
                                          const WitnessFeatures& warm,
                                          typename Tool::Scalar touching_distance) noexcept {
   using Scalar = typename Tool::Scalar;

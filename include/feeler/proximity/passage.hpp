@@ -45,6 +45,7 @@ Scalar highest(const Matrix3<Scalar>& corners, const Vector3<Scalar>& normal) no
 /// Part of [from, to] over which one plane certainly holds, fixed to the world or to the tool, whichever is more; 1 for all of it.
 /// `plane` is given at the frame `at`, which is one end; `required` is subtracted from its slack.
 template <ConvexTool Tool>
+[[gnu::flatten, gnu::noinline]]
 typename Tool::Scalar held_part(const MovingTool<Tool>& moving, const Matrix3<typename Tool::Scalar>& corners,
                                 const HeldPlane<typename Tool::Scalar>& plane,
                                 const MotionFrame<typename Tool::Scalar>& at,
@@ -79,6 +80,7 @@ namespace detail {
 /// and b₂ = n₁·(x₁ − y); each has its minimum over the tool at one support point. Less the sagitta g of the chords, 4g t(1 − t), it
 /// stays positive where b₁ − 2g > −√(b₀b₂).
 template <ConvexTool Tool>
+[[gnu::flatten, gnu::noinline]]
 bool turning_plane_holds(const MovingTool<Tool>& moving, const Matrix3<typename Tool::Scalar>& corners,
                          const HeldPlane<typename Tool::Scalar>& first, const MotionFrame<typename Tool::Scalar>& start,
                          const HeldPlane<typename Tool::Scalar>& last, const MotionFrame<typename Tool::Scalar>& end,
@@ -108,6 +110,7 @@ bool turning_plane_holds(const MovingTool<Tool>& moving, const Matrix3<typename 
 /// @param work  grows by one for each distance query
 /// @cost  0 queries for a plane that holds, 1 to 4 as a rule, at most 27
 template <ConvexTool Tool>
+[[gnu::flatten, gnu::noinline]]
 Passage<typename Tool::Scalar> pass(const MovingTool<Tool>& moving, const PassedTriangle<typename Tool::Scalar>& triangle,
                                     const MotionFrame<typename Tool::Scalar>& start,
                                     const MotionFrame<typename Tool::Scalar>& end,

@@ -21,6 +21,7 @@ Scalar touching_distance(Scalar size) noexcept {
 /// @param closest   what `gjk` said of them
 /// @param accepted  overlap that needs no better plane [m]
 template <ConvexTool Tool>
+[[gnu::noinline]]
 ClosestPoints<typename Tool::Scalar> separation_of_touching(const Tool& tool, const Matrix3<typename Tool::Scalar>& triangle,
                                                             ClosestPoints<typename Tool::Scalar> closest,
                                                             typename Tool::Scalar accepted = 0) noexcept {
@@ -40,6 +41,7 @@ ClosestPoints<typename Tool::Scalar> separation_of_touching(const Tool& tool, co
 }
 
 template <SweptTool Tool>
+[[gnu::noinline]]
 ClosestPoints<typename Tool::Scalar> separation_of_touching(const Tool& tool, const Matrix3<typename Tool::Scalar>& triangle,
                                                             ClosestPoints<typename Tool::Scalar> closest,
                                                             typename Tool::Scalar accepted = 0) noexcept {

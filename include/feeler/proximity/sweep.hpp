@@ -140,6 +140,7 @@ class Sweep {
   /// when the work done exceeds the limit, which it may raise, until one call is false; true when it came to the end.
   template <class MeshScalar, class Visit, class GoesOn>
   bool traverse(const TriangleMesh<MeshScalar>& mesh, const MovingTool<Tool>& moving, int& work, int limit, const Visit& visit,
+  [[gnu::flatten, gnu::noinline]]
                 const GoesOn& goes_on) noexcept {
     const auto& bvh = mesh.bvh();
     FixedVector<std::int32_t, Bvh<MeshScalar>::stack_capacity> stack;
@@ -224,6 +225,7 @@ class Sweep {
 
   /// From here on only [0, time] is certified.
   void set_end(const MovingTool<Tool>& moving, Scalar time) noexcept {
+  [[gnu::flatten, gnu::noinline]]
     end_ = moving.frame_at(time);
     planes_.end(moving, end_, clearance_.kept);
     const auto& sides = planes_.sides();

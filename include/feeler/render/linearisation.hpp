@@ -239,6 +239,7 @@ class Linearisation {
   /// Separation of a pair along a world normal at a pose with the axes given [m].
   Scalar slack_along(const Scene& scene, const Pair& pair, const Vector3<Scalar>& normal, const Pose<Scalar>& pose, const Matrix3<Scalar>& axes,
                      Tick<MeshScalar>& tick) noexcept {
+  [[gnu::flatten, gnu::noinline]]
     if (++planes_ >= planes_per_work) {
       planes_ = 0;
       ++tick.work;
@@ -251,6 +252,7 @@ class Linearisation {
   /// Measures a pair where the rows are, and adds its rows.
   void measure(const Scene& scene, Pair& pair, Tick<MeshScalar>& tick) noexcept {
     const Matrix3<Scalar> corners = scene.in_tool(pair.corners_world, pose_, axes_);
+  [[gnu::flatten, gnu::noinline]]
     const auto closest = query(scene, pair, corners, axes_, is_at_start_, tick);
     ContactPatch<Piece, MeshScalar> patch(scene.piece(pair.piece), scene.incidence(pair.piece), scene.object(), axes_, scene.reference(),
                                           scene.trust_radius() / 4, assumes_valleys_);

@@ -195,6 +195,7 @@ class StepProblem {
   ///
   /// Across the active rows the step is fixed, so ½ρ(Jₖd − bₖ)² added for each changes nothing along them (augmented Lagrangian). Where H
   /// has negative curvature along the rows too, the tool is about to slip off: there part of the metric takes its place.
+  [[gnu::flatten, gnu::noinline]]
   void set_lagrangian_hessian(const Metric<Scalar>& metric, const Twist<Scalar>& e) noexcept {
     const Vector6<Scalar> base = metric.hessian({}).diagonal();
     // Summed before it is subtracted: of contacts between faces much cancels, and does so to the last bit.
