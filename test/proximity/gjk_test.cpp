@@ -169,6 +169,53 @@ BOOST_AUTO_TEST_CASE(shapes_that_overlap_are_touching_from_any_start) {
   BOOST_TEST(overlapping > 500);
 }
 
+namespace {
+
+struct CountingBox : feeler::Box<double> {
+  using feeler::Box<double>::Box;
+  static inline int supports = 0;
+  int support(const Eigen::Vector3d& direction) const noexcept {
+    ++supports;
+    return Box::support(direction);
+  }
+};
+
+}  // namespace
+
+BOOST_AUTO_TEST_CASE(shapes_that_overlapped_start_from_there_though_they_overlap_no_more) {
+  constexpr unsigned seed = 6;
+  BOOST_TEST_MESSAGE("seed " << seed);
+  std::mt19937 bits(seed);
+  const CountingBox box(Eigen::Vector3d(0.01, 0.02, 0.03));
+  const auto supports_of = [&box](const Eigen::Matrix3d& corners, const WitnessFeatures& warm) {
+    CountingBox::supports = 0;
+    feeler::gjk(box, corners, warm, touching);
+    return CountingBox::supports;
+  };
+  int overlapping = 0, apart = 0, cold = 0, warm = 0, cold_apart = 0, warm_apart = 0;
+  for (int i = 0; i < 3000; ++i) {
+    const Eigen::Matrix3d corners = 0.03 * random_triangle(bits, Shape::ordinary);
+    const auto found = feeler::gjk(box, corners, {}, touching);
+    if (!found.is_touching || found.features.size < 3) continue;
+    ++overlapping;
+    cold += supports_of(corners, {});
+    warm += supports_of(corners, found.features);
+    // Out of it along the axis that parts them.
+    const auto away = feeler::separation(box, corners, {}, touching);
+    const Eigen::Matrix3d moved = corners.colwise() + (away.distance - 1e-5) * away.normal;
+    if (feeler::gjk(box, moved, {}, touching).is_touching) continue;
+    ++apart;
+    cold_apart += supports_of(moved, {});
+    warm_apart += supports_of(moved, found.features);
+  }
+  BOOST_TEST_MESSAGE("support calls, cold and warm: " << double(cold) / overlapping << ", " << double(warm) / overlapping << "; no longer overlapping "
+                                                      << double(cold_apart) / apart << ", " << double(warm_apart) / apart);
+  BOOST_TEST(overlapping > 300);
+  BOOST_TEST(apart > 300);
+  BOOST_TEST(warm * 3 < cold * 2);
+  BOOST_TEST(warm_apart < cold_apart);
+}
+
 BOOST_AUTO_TEST_CASE(an_answer_does_not_change_with_the_unit_if_that_is_a_power_of_two) {
   constexpr unsigned seed = 5;
   BOOST_TEST_MESSAGE("seed " << seed);

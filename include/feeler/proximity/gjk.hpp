@@ -12,7 +12,8 @@
 
 namespace feeler {
 
-/// The features on which a query ended, to start the next one from: pairs of tool vertex and triangle corner.
+/// The features on which a query ended, to start the next one from: pairs of tool vertex and triangle corner. Where shapes overlap, three of
+/// the four around what they share.
 struct WitnessFeatures {
   int size = 0;
   std::array<short, 3> tool_vertices{};
@@ -39,8 +40,8 @@ struct ClosestPoints {
 /// @param touching_distance  below it the shapes count as touching [m]
 /// @cost  noexcept, no allocation, at most 32 support calls, mostly 2 to 5
 template <ConvexTool Tool>
-ClosestPoints<typename Tool::Scalar> gjk(const Tool& tool, const Matrix3<typename Tool::Scalar>& triangle,
 [[gnu::flatten, gnu::noinline]]
+ClosestPoints<typename Tool::Scalar> gjk(const Tool& tool, const Matrix3<typename Tool::Scalar>& triangle,
                                          const WitnessFeatures& warm,
                                          typename Tool::Scalar touching_distance) noexcept {
   using Scalar = typename Tool::Scalar;
@@ -108,7 +109,7 @@ ClosestPoints<typename Tool::Scalar> gjk(const Tool& tool, const Matrix3<typenam
     if (!result.is_touching) simplex = last;
     break;
   }
-  result.features.size = simplex.size > 3 ? 0 : simplex.size;
+  result.features.size = std::min(simplex.size, 3);
   for (std::size_t i = 0; i < std::size_t(result.features.size); ++i) {
     result.features.tool_vertices[i] = short(simplex.tool_vertices[i]);
     result.features.corners[i] = short(simplex.corners[i]);
@@ -122,8 +123,8 @@ ClosestPoints<typename Tool::Scalar> gjk(const Tool& tool, const Matrix3<typenam
 /// overlaps the triangle. The algorithm compares squares, so that at a distance it knows the direction to √ε only, which a large triangle
 /// makes into nanometres: where the triangle's own plane shows as much distance, it is taken.
 template <SweptTool Tool>
-ClosestPoints<typename Tool::Scalar> gjk(const Tool& tool, const Matrix3<typename Tool::Scalar>& triangle,
 [[gnu::flatten, gnu::noinline]]
+ClosestPoints<typename Tool::Scalar> gjk(const Tool& tool, const Matrix3<typename Tool::Scalar>& triangle,
                                          const WitnessFeatures& warm,
                                          typename Tool::Scalar touching_distance) noexcept {
   using Scalar = typename Tool::Scalar;

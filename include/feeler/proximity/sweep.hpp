@@ -34,6 +34,7 @@ struct Blocker {
   int triangle = -1;
   Scalar time = Scalar(0);
   int piece = 0;  ///< of the tool
+  WitnessFeatures features = {};  ///< on which the last query ended
 };
 
 /// Result of a sweep: the motion is free of collision on [0, time]. That is less than the whole where something blocks, or the work ran low.
@@ -139,8 +140,8 @@ class Sweep {
   /// Calls `visit(triangle, its corners relative to the motion's origin)` for every triangle that no cached plane passes, and `goes_on(limit)`
   /// when the work done exceeds the limit, which it may raise, until one call is false; true when it came to the end.
   template <class MeshScalar, class Visit, class GoesOn>
-  bool traverse(const TriangleMesh<MeshScalar>& mesh, const MovingTool<Tool>& moving, int& work, int limit, const Visit& visit,
   [[gnu::flatten, gnu::noinline]]
+  bool traverse(const TriangleMesh<MeshScalar>& mesh, const MovingTool<Tool>& moving, int& work, int limit, const Visit& visit,
                 const GoesOn& goes_on) noexcept {
     const auto& bvh = mesh.bvh();
     FixedVector<std::int32_t, Bvh<MeshScalar>::stack_capacity> stack;
@@ -214,9 +215,9 @@ class Sweep {
     if (result.blockers.full()) {
       auto latest = std::max_element(result.blockers.begin(), result.blockers.end(),
                                      [](const auto& a, const auto& b) { return a.time < b.time; });
-      if (passage.time < latest->time) *latest = {triangle, passage.time, 0};
+      if (passage.time < latest->time) *latest = {triangle, passage.time, 0, passage.features};
     } else {
-      result.blockers.push_back({triangle, passage.time, 0});
+      result.blockers.push_back({triangle, passage.time, 0, passage.features});
     }
     if (passage.time < result.time) result.time = passage.time;
     const Scalar enough = worth_certifying(result.time, clearance_, moving);
@@ -224,8 +225,8 @@ class Sweep {
   }
 
   /// From here on only [0, time] is certified.
-  void set_end(const MovingTool<Tool>& moving, Scalar time) noexcept {
   [[gnu::flatten, gnu::noinline]]
+  void set_end(const MovingTool<Tool>& moving, Scalar time) noexcept {
     end_ = moving.frame_at(time);
     planes_.end(moving, end_, clearance_.kept);
     const auto& sides = planes_.sides();

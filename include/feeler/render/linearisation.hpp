@@ -159,7 +159,9 @@ class Linearisation {
       const Vector3<Scalar> point = pose_.translation + step.linear + row.carried(step).arm;
       const int triangle = triangle_under(scene.object(), row.triangle, point);
       if (triangle < 0 || pairs_.find(row.piece, triangle) >= 0) continue;
+      const WitnessFeatures features = pairs_[pairs_.find(row.piece, row.triangle)].features;
       Pair& pair = take_in(scene, row.piece, triangle);
+      pair.features = features;
       const Matrix3<Scalar> axes = start_.rotation.toRotationMatrix();
       query(scene, pair, scene.in_tool(pair.corners_world, start_, axes), axes, true, tick);
     }
@@ -171,7 +173,7 @@ class Linearisation {
     for (const auto& blocker : result.blockers) {
       const int i = pairs_.find(blocker.piece, blocker.triangle);
       if (i < 0) {
-        take_in(scene, blocker.piece, blocker.triangle);
+        take_in(scene, blocker.piece, blocker.triangle).features = blocker.features;
         is_new = true;
         continue;
       }
@@ -237,9 +239,9 @@ class Linearisation {
   }
 
   /// Separation of a pair along a world normal at a pose with the axes given [m].
+  [[gnu::flatten, gnu::noinline]]
   Scalar slack_along(const Scene& scene, const Pair& pair, const Vector3<Scalar>& normal, const Pose<Scalar>& pose, const Matrix3<Scalar>& axes,
                      Tick<MeshScalar>& tick) noexcept {
-  [[gnu::flatten, gnu::noinline]]
     if (++planes_ >= planes_per_work) {
       planes_ = 0;
       ++tick.work;
@@ -250,9 +252,9 @@ class Linearisation {
   }
 
   /// Measures a pair where the rows are, and adds its rows.
+  [[gnu::flatten, gnu::noinline]]
   void measure(const Scene& scene, Pair& pair, Tick<MeshScalar>& tick) noexcept {
     const Matrix3<Scalar> corners = scene.in_tool(pair.corners_world, pose_, axes_);
-  [[gnu::flatten, gnu::noinline]]
     const auto closest = query(scene, pair, corners, axes_, is_at_start_, tick);
     ContactPatch<Piece, MeshScalar> patch(scene.piece(pair.piece), scene.incidence(pair.piece), scene.object(), axes_, scene.reference(),
                                           scene.trust_radius() / 4, assumes_valleys_);
@@ -273,7 +275,6 @@ class Linearisation {
                                      Tick<MeshScalar>& tick) noexcept {
     const auto closest = closest_points(scene, corners, axes, pair, is_at_start);
     ++tick.work;
-    pair.features = closest.features;
     pair.last_normal = axes * closest.normal;
     if (is_at_start) pair.set_plane(pair.last_normal, closest.distance);
     return closest;
@@ -287,10 +288,11 @@ class Linearisation {
 
   /// Closest points of a pair, with the corners in the tool frame of a pose with the axes given. On the way the tool may overlap it; then the
   /// plane it had at the start says which features meet.
-  static ClosestPoints<Scalar> closest_points(const Scene& scene, const Matrix3<Scalar>& corners, const Matrix3<Scalar>& axes, const Pair& pair,
+  static ClosestPoints<Scalar> closest_points(const Scene& scene, const Matrix3<Scalar>& corners, const Matrix3<Scalar>& axes, Pair& pair,
                                               [[maybe_unused]] bool is_at_start) noexcept {
     const Piece& piece = scene.piece(pair.piece);
     ClosestPoints<Scalar> closest = gjk(piece, corners, pair.features, scene.clearance().touching);
+    pair.features = closest.features;
     if (!closest.is_touching) return closest;
     if constexpr (!SweptTool<Piece>) {  // whose core touches nothing but on the way, and there by far
       if (is_at_start || pair.slack < 2 * scene.clearance().touching) {

@@ -46,7 +46,7 @@ class MotionCertificate {
         if (!is_near[std::size_t(piece)]) continue;
         const MovingTool<Piece> moving = scene.moving(piece, from, motion);
         const auto passed = certify_piece(piece, scene, moving, work, limit, pairs, far, until);
-        for (const auto& blocker : passed.blockers) add({blocker.triangle, blocker.time, piece}, result);
+        for (const auto& blocker : passed.blockers) add({blocker.triangle, blocker.time, piece, blocker.features}, result);
         if (passed.is_exhausted) {
           result.is_exhausted = true;
           result.time = Scalar(0);
