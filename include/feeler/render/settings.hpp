@@ -41,8 +41,8 @@ struct Settings {
   /// Linearisations a tick, at most 32; when they are spent the rest of the motion is left for the next ticks.
   int maximum_iterations = 12;
 
-  /// Work a tick, in units of one distance query between the tool and a triangle, or one optimisation (with all that goes with it, about a
-  /// microsecond for 32 vertices). When not enough is left for another iteration the tick ends on the certified pose it has. Less bounds the
+  /// Work a tick, in units of one distance query between the tool and a triangle, or one optimisation (with all that goes with it, about 0.7 µs
+  /// for 32 vertices). When not enough is left for another iteration the tick ends on the certified pose it has. Less bounds the
   /// worst tick, and lets the tool lag behind where the solution jumps. While it is not enough to move the tool at all, up to sixteen times as much.
   int work_budget = 190;
 };
