@@ -1,6 +1,8 @@
 // Closest points of a convex tool and a triangle, by the algorithm of Gilbert, Johnson and Keerthi.
 #pragma once
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 

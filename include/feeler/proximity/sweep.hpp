@@ -47,6 +47,12 @@ struct SweepResult {
   bool is_exhausted = false;  ///< the work limit was reached: nothing is certified, time is 0; the blockers found so far are real
 
   bool is_whole() const noexcept { return blockers.empty() && time >= Scalar(1); }
+  /// Adds a blocker; where there are too many the earliest are kept.
+  void add(const Blocker<Scalar>& blocker) noexcept {
+    if (blockers.push_back(blocker)) return;
+    auto latest = std::max_element(blockers.begin(), blockers.end(), [](const auto& a, const auto& b) { return a.time < b.time; });
+    if (blocker.time < latest->time) *latest = blocker;
+  }
 };
 
 /// How far a motion that is blocked at a time should be looked at further: past its first blocker, to know the ones just behind it.
@@ -212,13 +218,7 @@ class Sweep {
       }
       return;
     }
-    if (result.blockers.full()) {
-      auto latest = std::max_element(result.blockers.begin(), result.blockers.end(),
-                                     [](const auto& a, const auto& b) { return a.time < b.time; });
-      if (passage.time < latest->time) *latest = {triangle, passage.time, 0, passage.features};
-    } else {
-      result.blockers.push_back({triangle, passage.time, 0, passage.features});
-    }
+    result.add({triangle, passage.time, 0, passage.features});
     if (passage.time < result.time) result.time = passage.time;
     const Scalar enough = worth_certifying(result.time, clearance_, moving);
     if (2 * enough <= end_.time) set_end(moving, enough);

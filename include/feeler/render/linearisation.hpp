@@ -159,9 +159,7 @@ class Linearisation {
       const Vector3<Scalar> point = pose_.translation + step.linear + row.carried(step).arm;
       const int triangle = triangle_under(scene.object(), row.triangle, point);
       if (triangle < 0 || pairs_.find(row.piece, triangle) >= 0) continue;
-      const WitnessFeatures features = pairs_[pairs_.find(row.piece, row.triangle)].features;
-      Pair& pair = take_in(scene, row.piece, triangle);
-      pair.features = features;
+      Pair& pair = take_in(scene, row.piece, triangle, pairs_[pairs_.find(row.piece, row.triangle)].features);
       const Matrix3<Scalar> axes = start_.rotation.toRotationMatrix();
       query(scene, pair, scene.in_tool(pair.corners_world, start_, axes), axes, true, tick);
     }
@@ -173,7 +171,7 @@ class Linearisation {
     for (const auto& blocker : result.blockers) {
       const int i = pairs_.find(blocker.piece, blocker.triangle);
       if (i < 0) {
-        take_in(scene, blocker.piece, blocker.triangle).features = blocker.features;
+        take_in(scene, blocker.piece, blocker.triangle, blocker.features);
         is_new = true;
         continue;
       }
@@ -319,8 +317,11 @@ class Linearisation {
     }
   }
 
-  Pair& take_in(const Scene& scene, int piece, int triangle) noexcept {
-    return pairs_.add(piece, triangle, scene.object().corners(triangle).template cast<Scalar>());
+  /// @param features  to start its first query from
+  Pair& take_in(const Scene& scene, int piece, int triangle, WitnessFeatures features) noexcept {
+    Pair& pair = pairs_.add(piece, triangle, scene.object().corners(triangle).template cast<Scalar>());
+    pair.features = features;
+    return pair;
   }
 
   Pairs pairs_;

@@ -46,7 +46,10 @@ class MotionCertificate {
         if (!is_near[std::size_t(piece)]) continue;
         const MovingTool<Piece> moving = scene.moving(piece, from, motion);
         const auto passed = certify_piece(piece, scene, moving, work, limit, pairs, far, until);
-        for (const auto& blocker : passed.blockers) add({blocker.triangle, blocker.time, piece, blocker.features}, result);
+        for (Blocker<Scalar> blocker : passed.blockers) {
+          blocker.piece = piece;
+          result.add(blocker);
+        }
         if (passed.is_exhausted) {
           result.is_exhausted = true;
           result.time = Scalar(0);
@@ -128,14 +131,6 @@ class MotionCertificate {
     }
     return Sweep<Piece>(planes_[std::size_t(piece)], clearance)
         .certify(scene.object(), moving, std::span(known).first(std::size_t(known_count)), work, limit, until);
-  }
-
-  /// Keeps the earliest blockers.
-  static void add(const Blocker<Scalar>& blocker, SweepResult<Scalar>& result) noexcept {
-    if (result.blockers.push_back(blocker)) return;
-    auto latest = std::max_element(result.blockers.begin(), result.blockers.end(),
-                                   [](const auto& a, const auto& b) { return a.time < b.time; });
-    if (blocker.time < latest->time) *latest = blocker;
   }
 
   std::array<PlaneCache<Scalar>, std::size_t(maximum_pieces<ToolType>)> planes_;
