@@ -70,4 +70,29 @@ BOOST_AUTO_TEST_CASE(where_the_tool_is_about_to_slip_off_the_step_is_finite_and_
   }
 }
 
+BOOST_AUTO_TEST_CASE(without_clearance_spare_rows_leave_the_tool_to_others_that_ask_the_same) {
+  // Between a floor and a ceiling that it touches, in four places each: the hand pushes down and turns.
+  const Metric<double> metric;
+  const Twist<double> graphic_from_haptic{{2e-5, -1e-5, 1e-4}, {3e-3, -2e-3, 1e-3}};
+  for (unsigned spares = 0; spares < 256; ++spares) {
+    StepProblem<DualActiveSet<double>, 8> problem;
+    int spare_count = 0;
+    for (int i = 0; i < 8; ++i) {
+      ContactRow<double> row;
+      const bool is_ceiling = i >= 4, is_spare = (spares >> i & 1) != 0;
+      if (is_ceiling) row.normal = -row.normal;
+      row.arm = {i % 2 == 0 ? 0.01 : -0.01, i / 2 % 2 == 0 ? 0.01 : -0.01, is_ceiling ? 0.002 : -0.002};
+      BOOST_TEST_REQUIRE(problem.add(row, 0.0, false, is_spare));
+      spare_count += is_spare;
+    }
+    const Vector6<double> step = problem.project(metric, graphic_from_haptic, 1e-6);
+    BOOST_TEST(std::abs(step[2]) < 3e-12, "spares " << spares << ": sinks by " << step[2]);
+    BOOST_TEST(step.segment<2>(3).norm() < 1e-9, "spares " << spares << ": tilts");
+    if (spare_count > 1) continue;  // the others might let it tilt
+    for (const auto& active : problem.solution().active) {
+      BOOST_TEST((spares >> active.row & 1) == 0u, "spares " << spares << ": row " << active.row << " holds the tool");
+    }
+  }
+}
+
 BOOST_AUTO_TEST_SUITE_END()

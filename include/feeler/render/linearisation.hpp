@@ -71,11 +71,12 @@ class Linearisation {
       if (!holds_at_start(scene, pair, pair.last_normal, scene.clearance().kept, tick)) return false;
       pair.is_ghost = pair.state == PairState::ghost;
     }
-    const bool are_carried = problem_.carry(motion, [&](const Row& row, Scalar& certified_gap, bool& is_tight) {
+    const bool are_carried = problem_.carry(motion, [&](const Row& row, Scalar& certified_gap, bool& is_tight, bool& is_spare) {
       const int i = pairs_.find(row.piece, row.triangle);
       if (i < 0 || pairs_[i].state != PairState::has_rows) return false;  // its pair has left, and others may repeat it
       certified_gap = pairs_[i].slack;
       is_tight = pairs_[i].is_tight;
+      is_spare = pairs_[i].is_spare();
       keep_if_touching(scene, row, pairs_[i]);
       return true;
     });
@@ -263,7 +264,7 @@ class Linearisation {
       row.triangle = pair.triangle;
       if (problem_.repeats(row)) continue;
       pair.state = PairState::has_rows;
-      problem_.add(row, pair.slack, pair.is_tight);
+      problem_.add(row, pair.slack, pair.is_tight, pair.is_spare());
       if (is_at_start_) keep_if_touching(scene, row, pair);
     }
   }

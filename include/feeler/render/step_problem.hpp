@@ -18,7 +18,9 @@ namespace feeler {
 ///
 /// The target is the margin. Rows that together cannot have it (a fit tighter than twice the margin) are asked for less, only those in the
 /// infeasibility certificate: no closer than they were at the last certified pose, of which a fifth of the margin is enough. As
-/// that pose meets them, a step exists. Where there is no clearance at all, rounding decides who has it: there the target is 0.
+/// that pose meets them, a step exists. Where there is no clearance at all, rounding decides who has it: there the target is 0. Many rows
+/// ask the same then, and chance would tell which of them hold the tool: those that have not held it lately are asked for a picometre less,
+/// so that it is the same few.
 /// @tparam RowType  a `ContactRow`, or one with another curvature
 template <QpSolver Solver, int rows = 128, class RowType = ContactRow<typename Solver::Scalar>>
 class StepProblem {
@@ -34,18 +36,21 @@ class StepProblem {
   }
   /// @param certified_gap  separation of the row's pair at the last certified pose [m]
   /// @param is_tight       it was among those that could not have the margin: relax it with the first that cannot
-  bool add(const Row& row, Scalar certified_gap, bool is_tight) noexcept {
+  /// @param is_spare       it has not held the tool lately: where there is no clearance others are to hold it
+  bool add(const Row& row, Scalar certified_gap, bool is_tight, bool is_spare = false) noexcept {
     if (!rows_.push_back(row)) return false;
-    certified_gaps_[index(rows_.size() - 1)] = certified_gap;
-    is_tight_[index(rows_.size() - 1)] = is_tight;
+    const std::size_t last = index(rows_.size() - 1);
+    certified_gaps_[last] = certified_gap;
+    is_tight_[last] = is_tight;
+    is_spare_[last] = is_spare;
     return true;
   }
   /// Whether a row in the problem asks the same as another.
   bool repeats(const Row& other) const noexcept {
     return std::any_of(rows_.begin(), rows_.end(), [&other](const Row& row) { return other.repeats(row); });
   }
-  /// Moves the rows to where a motion from the pose of linearisation ends, less those kept. `update(row, certified gap, is tight)` sets the two
-  /// as `add` has them; where it is false so is the result, and the problem is to be cleared.
+  /// Moves the rows to where a motion from the pose of linearisation ends, less those kept. `update(row, certified gap, is tight, is spare)`
+  /// sets the three as `add` has them; where it is false so is the result, and the problem is to be cleared.
   template <class Update>
   bool carry(const Twist<Scalar>& motion, const Update& update) noexcept {
     const int count = rows_.size() - kept_;
@@ -53,9 +58,9 @@ class StepProblem {
     for (int k = 0; k < count; ++k) {
       const Row row = rows_[k].carried(motion);
       Scalar certified_gap;
-      bool is_tight;
-      if (!update(row, certified_gap, is_tight)) return false;
-      add(row, certified_gap, is_tight);
+      bool is_tight, is_spare;
+      if (!update(row, certified_gap, is_tight, is_spare)) return false;
+      add(row, certified_gap, is_tight, is_spare);
     }
     return true;
   }
@@ -180,13 +185,15 @@ class StepProblem {
   }
 
   static constexpr Scalar no_clearance = Scalar(1e-10);
+  static constexpr Scalar picometre = Scalar(1e-12);  // some tolerances of a solver
 
   bool relax(int k, Scalar margin) noexcept {
     if (is_relaxed_[index(k)]) return false;
     is_relaxed_[index(k)] = true;
     const Scalar enough = margin / 5;
     const Scalar certified = certified_gaps_[index(k)];
-    const Scalar target = certified > no_clearance ? std::min(certified, enough) : Scalar(0);
+    const Scalar least = is_spare_[index(k)] ? -picometre : Scalar(0);
+    const Scalar target = certified > no_clearance ? std::min(certified, enough) : least;
     problem_.bounds[index(k)] = std::min(problem_.bounds[index(k)], target - rows_[k].gap);
     return true;
   }
@@ -250,6 +257,7 @@ class StepProblem {
   int kept_ = 0;  // of them, at the end
   std::array<Scalar, std::size_t(row_capacity)> certified_gaps_;
   std::array<bool, std::size_t(row_capacity)> is_tight_;
+  std::array<bool, std::size_t(row_capacity)> is_spare_;
   std::array<bool, std::size_t(row_capacity)> is_relaxed_;
 };
 
