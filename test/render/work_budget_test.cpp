@@ -25,6 +25,18 @@ BOOST_AUTO_TEST_CASE(an_iteration_is_begun_where_half_of_what_the_last_one_took_
   BOOST_TEST(budget.is_spent(90));
 }
 
+BOOST_AUTO_TEST_CASE(the_second_iteration_is_begun_where_any_work_is_left) {
+  WorkBudget budget;
+  budget.begin_tick(100);
+  budget.begin_iteration(0);
+  BOOST_TEST(budget.allows_another(66));
+  BOOST_TEST(budget.allows_another(99));
+  BOOST_TEST(!budget.allows_another(100));
+  budget.begin_iteration(66);
+  BOOST_TEST(budget.allows_another(88));
+  BOOST_TEST(!budget.allows_another(90));
+}
+
 BOOST_AUTO_TEST_CASE(the_first_motion_of_a_tick_may_have_two_linearisations_and_half_a_budget_to_be_certified) {
   WorkBudget budget;
   budget.begin_tick(100);

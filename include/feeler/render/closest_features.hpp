@@ -157,7 +157,7 @@ class ClosestFeaturesFollower {
           limits_.narrow(length * std::max(result.time, Scalar(1) / 4));
         }
       }
-    } while (tick.iterations < maximum_iterations && !budget_.is_spent(tick.work) && !(limits_.trust() < resting));
+    } while (tick.iterations < maximum_iterations && budget_.allows_another(tick.work) && !(limits_.trust() < resting));
     limits_.carry_over();
     return false;
   }

@@ -7,8 +7,9 @@ namespace feeler {
 
 /// The work of a tick, in the unit of `Settings::work_budget`, against what it may take.
 ///
-/// A new iteration is begun where half as much work as the last one took is left, so that a tick ends about where its budget does. A fit all
-/// around a tool may take more to look at once than a tick has: where that keeps the tool from moving for some ticks, the budget doubles.
+/// A new iteration is begun where half as much work as the last one took is left, so that a tick ends about where its budget does; the second
+/// where any is left, as what the first one met is known by then. A fit all around a tool may take more to look at once than a tick has: where
+/// that keeps the tool from moving for some ticks, the budget doubles.
 class WorkBudget {
  public:
   void reset() noexcept { starved_ = patience_ = 0; }
@@ -26,8 +27,10 @@ class WorkBudget {
   }
   /// Of the tick: it may have the most work.
   bool is_first_iteration() const noexcept { return iterations_ <= 1; }
-  /// Whether there is not enough for another iteration.
+  /// Whether there is not enough for another iteration that is like the last one.
   bool is_spent(int work) const noexcept { return work + (work - begun_) / 2 > allowed_; }
+  /// Whether another iteration is begun.
+  bool allows_another(int work) const noexcept { return !is_spent(work) || (is_first_iteration() && work < allowed_); }
   /// Whether a motion has to do with the linearisations that it has had; the first motion of a tick may have two of them.
   bool ends_motion(int work, int linearisations) const noexcept {
     return work >= allowed_ && linearisations >= (is_first_iteration() ? 2 : 1);
