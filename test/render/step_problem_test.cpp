@@ -27,7 +27,7 @@ Vector6<double> step_of(Problem& problem, double short_by, const Eigen::Vector3d
   row.gap = -short_by;
   row.bend = bend;
   problem.clear();
-  BOOST_TEST_REQUIRE(problem.add(row, 0.0, false));
+  BOOST_TEST_REQUIRE(problem.add(row, {0.0}));
   const Metric<double> metric;
   const Twist<double> graphic_from_haptic{-hand, Eigen::Vector3d::Zero()};
   problem.project(metric, graphic_from_haptic, 0.0);
@@ -82,7 +82,7 @@ BOOST_AUTO_TEST_CASE(without_clearance_spare_rows_leave_the_tool_to_others_that_
       const bool is_ceiling = i >= 4, is_spare = (spares >> i & 1) != 0;
       if (is_ceiling) row.normal = -row.normal;
       row.arm = {i % 2 == 0 ? 0.01 : -0.01, i / 2 % 2 == 0 ? 0.01 : -0.01, is_ceiling ? 0.002 : -0.002};
-      BOOST_TEST_REQUIRE(problem.add(row, 0.0, false, is_spare));
+      BOOST_TEST_REQUIRE(problem.add(row, {0.0, false, is_spare}));
       spare_count += is_spare;
     }
     const Vector6<double> step = problem.project(metric, graphic_from_haptic, 1e-6);

@@ -1,6 +1,8 @@
 // The working set and its rows, at one pose at a time: measured only where a step may meet them, and only where the tool has moved.
 #pragma once
 
+#include <optional>
+
 #include "feeler/contact/contact_patch.hpp"
 #include "feeler/contact/working_set.hpp"
 #include "feeler/core/fixed_vector.hpp"
@@ -71,14 +73,11 @@ class Linearisation {
       if (!holds_at_start(scene, pair, pair.last_normal, scene.clearance().kept, tick)) return false;
       pair.is_ghost = pair.state == PairState::ghost;
     }
-    const bool are_carried = problem_.carry(motion, [&](const Row& row, Scalar& certified_gap, bool& is_tight, bool& is_spare) {
+    const bool are_carried = problem_.carry(motion, [&](const Row& row) -> std::optional<Standing> {
       const int i = pairs_.find(row.piece, row.triangle);
-      if (i < 0 || pairs_[i].state != PairState::has_rows) return false;  // its pair has left, and others may repeat it
-      certified_gap = pairs_[i].slack;
-      is_tight = pairs_[i].is_tight;
-      is_spare = pairs_[i].is_spare();
+      if (i < 0 || pairs_[i].state != PairState::has_rows) return {};  // its pair has left, and others may repeat it
       keep_if_touching(scene, row, pairs_[i]);
-      return true;
+      return standing_of(pairs_[i]);
     });
     if (!are_carried) return false;
     for (Pair& pair : pairs_) {
@@ -186,6 +185,7 @@ class Linearisation {
 
  private:
   using Pair = typename Pairs::Pair;
+  using Standing = typename Problem::Standing;
 
   static constexpr int planes_per_work = 16;
 
@@ -264,10 +264,12 @@ class Linearisation {
       row.triangle = pair.triangle;
       if (problem_.repeats(row)) continue;
       pair.state = PairState::has_rows;
-      problem_.add(row, pair.slack, pair.is_tight, pair.is_spare());
+      problem_.add(row, standing_of(pair));
       if (is_at_start_) keep_if_touching(scene, row, pair);
     }
   }
+
+  static Standing standing_of(const Pair& pair) noexcept { return {pair.slack, pair.is_tight, pair.is_spare()}; }
 
   /// Closest points of a pair, as `closest_points`, and what is remembered of them.
   static ClosestPoints<Scalar> query(const Scene& scene, Pair& pair, const Matrix3<Scalar>& corners, const Matrix3<Scalar>& axes, bool is_at_start,

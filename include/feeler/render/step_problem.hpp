@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <optional>
 
 #include "feeler/contact/contact_row.hpp"
 #include "feeler/core/fixed_vector.hpp"
@@ -30,43 +31,44 @@ class StepProblem {
   static constexpr int row_capacity = rows;
   static_assert(row_capacity <= QpProblem<Scalar>::row_capacity);
 
+  /// What is known of the pair that a row is of.
+  struct Standing {
+    Scalar certified_gap;   ///< separation at the last certified pose [m]
+    bool is_tight = false;  ///< it was among those that could not have the margin: relax it with the first that cannot
+    bool is_spare = false;  ///< it has not held the tool lately: where there is no clearance others are to hold it
+  };
+
   void clear() noexcept {
     rows_.clear();
     kept_ = 0;
   }
-  /// @param certified_gap  separation of the row's pair at the last certified pose [m]
-  /// @param is_tight       it was among those that could not have the margin: relax it with the first that cannot
-  /// @param is_spare       it has not held the tool lately: where there is no clearance others are to hold it
-  bool add(const Row& row, Scalar certified_gap, bool is_tight, bool is_spare = false) noexcept {
+  /// Appends a row; false when there is no room.
+  bool add(const Row& row, const Standing& standing) noexcept {
     if (!rows_.push_back(row)) return false;
-    const std::size_t last = index(rows_.size() - 1);
-    certified_gaps_[last] = certified_gap;
-    is_tight_[last] = is_tight;
-    is_spare_[last] = is_spare;
+    standings_[index(rows_.size() - 1)] = standing;
     return true;
   }
   /// Whether a row in the problem asks the same as another.
   bool repeats(const Row& other) const noexcept {
     return std::any_of(rows_.begin(), rows_.end(), [&other](const Row& row) { return other.repeats(row); });
   }
-  /// Moves the rows to where a motion from the pose of linearisation ends, less those kept. `update(row, certified gap, is tight, is spare)`
-  /// sets the three as `add` has them; where it is false so is the result, and the problem is to be cleared.
-  template <class Update>
-  bool carry(const Twist<Scalar>& motion, const Update& update) noexcept {
+  /// Moves the rows to where a motion from the pose of linearisation ends, less those kept. Where `standing_of(row)` is empty the result is
+  /// false, and the problem is to be cleared.
+  template <class StandingOf>
+  bool carry(const Twist<Scalar>& motion, const StandingOf& standing_of) noexcept {
     const int count = rows_.size() - kept_;
     clear();
     for (int k = 0; k < count; ++k) {
       const Row row = rows_[k].carried(motion);
-      Scalar certified_gap;
-      bool is_tight, is_spare;
-      if (!update(row, certified_gap, is_tight, is_spare)) return false;
-      add(row, certified_gap, is_tight, is_spare);
+      const std::optional<Standing> standing = standing_of(row);
+      if (!standing) return false;
+      add(row, *standing);
     }
     return true;
   }
   /// Appends a row that held where the motion began, to hold where it ends; no other row may follow.
   bool keep(const Row& row, Scalar certified_gap) noexcept {
-    if (!add(row, certified_gap, false)) return false;
+    if (!add(row, {certified_gap})) return false;
     ++kept_;
     return true;
   }
@@ -160,7 +162,7 @@ class StepProblem {
       if (round < maximum_rounds && status == QpStatus::infeasible) {
         for (const int k : solution_.conflict) has_relaxed = relax(k, margin) || has_relaxed;
         for (int k = 0; round == 0 && k < problem_.row_count; ++k) {
-          if (is_tight_[index(k)]) has_relaxed = relax(k, margin) || has_relaxed;
+          if (standings_[index(k)].is_tight) has_relaxed = relax(k, margin) || has_relaxed;
         }
       }
       if (has_relaxed) continue;
@@ -190,10 +192,9 @@ class StepProblem {
   bool relax(int k, Scalar margin) noexcept {
     if (is_relaxed_[index(k)]) return false;
     is_relaxed_[index(k)] = true;
-    const Scalar enough = margin / 5;
-    const Scalar certified = certified_gaps_[index(k)];
-    const Scalar least = is_spare_[index(k)] ? -picometre : Scalar(0);
-    const Scalar target = certified > no_clearance ? std::min(certified, enough) : least;
+    const Standing& standing = standings_[index(k)];
+    const Scalar enough = margin / 5, least = standing.is_spare ? -picometre : Scalar(0);
+    const Scalar target = standing.certified_gap > no_clearance ? std::min(standing.certified_gap, enough) : least;
     problem_.bounds[index(k)] = std::min(problem_.bounds[index(k)], target - rows_[k].gap);
     return true;
   }
@@ -255,9 +256,7 @@ class StepProblem {
   bool is_newton_ = true;
   FixedVector<Row, row_capacity> rows_;
   int kept_ = 0;  // of them, at the end
-  std::array<Scalar, std::size_t(row_capacity)> certified_gaps_;
-  std::array<bool, std::size_t(row_capacity)> is_tight_;
-  std::array<bool, std::size_t(row_capacity)> is_spare_;
+  std::array<Standing, std::size_t(row_capacity)> standings_;
   std::array<bool, std::size_t(row_capacity)> is_relaxed_;
 };
 
