@@ -137,6 +137,21 @@ BOOST_AUTO_TEST_CASE(rows_are_not_carried_far_nor_across_a_plane_of_theirs_nor_a
   BOOST_TEST(!room.lines.start_carried(room.scene, Room::stand(), reach, room.tick));
 }
 
+BOOST_AUTO_TEST_CASE(rows_are_carried_without_clearance_too_but_not_into_the_object) {
+  Room room(1e-4, {0, 1});
+  const auto carries_by = [&room](double x, double z) {
+    const Pose<double> touching{{0, 0, half}, Eigen::Quaterniond::Identity()};
+    room.lines.start_measured(room.scene, touching, reach, room.tick);
+    const int work = room.tick.work;
+    const bool is_carried = room.lines.start_carried(room.scene, {{x, 0, half + z}, touching.rotation}, reach, room.tick);
+    BOOST_TEST(room.tick.work == work);
+    return is_carried;
+  };
+  BOOST_TEST(carries_by(1e-6, 0));
+  BOOST_TEST(carries_by(1e-6, -4e-12));   // rounding
+  BOOST_TEST(!carries_by(1e-6, -6e-12));  // more than what is allowed for it
+}
+
 BOOST_AUTO_TEST_CASE(what_stopped_a_step_can_be_kept_where_it_ended_though_nothing_is_measured_there) {
   Room room(1e-4, {0, 1, 2, 3});
   room.lines.start_measured(room.scene, Room::stand(), reach, room.tick);

@@ -62,7 +62,8 @@ class Linearisation {
     measure_near_pairs(scene, tick);
   }
 
-  /// The same with the rows of the last linearisation; false, and nothing is measured, where that was not near or a plane of it does not hold.
+  /// The same with the rows of the last linearisation; false, and nothing is measured, where that was not near, or a plane of it parts its pair
+  /// by less than a certificate requires.
   bool start_carried(const Scene& scene, const Pose<Scalar>& pose, Scalar reach, Tick<MeshScalar>& tick) noexcept {
     if (!has_rows_ || problem_.rests_on_kept()) return false;  // rows of the features that the tool was to leave
     const Twist<Scalar> motion = scene.idle_turns().motion_between(pose_, pose);
@@ -70,7 +71,7 @@ class Linearisation {
     start_at(pose, reach);
     for (Pair& pair : pairs_) {
       if (pair.state == PairState::left_out) continue;
-      if (!holds_at_start(scene, pair, pair.last_normal, scene.clearance().kept, tick)) return false;
+      if (!holds_at_start(scene, pair, pair.last_normal, scene.clearance().required(pair.slack), tick)) return false;
       pair.is_ghost = pair.state == PairState::ghost;
     }
     const bool are_carried = problem_.carry(motion, [&](const Row& row) -> std::optional<Standing> {
