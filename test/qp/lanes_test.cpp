@@ -2,9 +2,12 @@
 
 #include <boost/test/unit_test.hpp>
 
+#include <array>
+#include <cstddef>
 #include <random>
 #include <tuple>
 
+#include "feeler/qp/best_row.hpp"
 #include "feeler/qp/dual_active_set.hpp"
 #include "support/qp_laws.hpp"
 
@@ -51,6 +54,26 @@ BOOST_AUTO_TEST_CASE(any_number_of_lanes_gives_the_same_bits_in_double) {
 }
 BOOST_AUTO_TEST_CASE(any_number_of_lanes_gives_the_same_bits_in_float) {
   check_same_bits<float, 4, 8>(12);
+}
+
+BOOST_AUTO_TEST_CASE(the_best_row_scores_within_an_eighth_of_any_other) {
+  constexpr int lanes = 4, rows = 64;
+  using Group = feeler::detail::Lanes<double, lanes>;
+  using Values = std::array<double, rows>;
+  std::mt19937 bits(13);
+  for (int i = 0; i < 1000; ++i) {
+    alignas(64) Values violations, weights;
+    for (double& violation : violations) violation = feeler_test::magnitude(bits, -12, 0);
+    for (double& weight : weights) weight = feeler_test::magnitude(bits, -3, 3);
+    feeler::detail::BestRow<double, lanes> best;
+    const Group threshold = feeler::detail::spread<Group>(1e-9);
+    for (std::size_t k = 0; k < rows; k += lanes)
+      best.meet(feeler::detail::load<Group>(&violations[k]), feeler::detail::load<Group>(&weights[k]),
+                threshold);
+    const auto score = [&](std::size_t k) { return violations[k] * violations[k] / weights[k]; };
+    BOOST_TEST_REQUIRE(best.row() >= 0);
+    for (std::size_t k = 0; k < rows; ++k) BOOST_TEST(1.1251 * score(std::size_t(best.row())) >= score(k));
+  }
 }
 
 BOOST_AUTO_TEST_CASE(a_product_is_rounded_before_it_is_added_to) {
