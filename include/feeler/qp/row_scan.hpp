@@ -76,10 +76,10 @@ class RowScan {
 
   /// The row to add, or −1 if none is violated by more than `tolerance`.
   int select(const Problem& problem, Scalar tolerance) const noexcept {
+    const Group threshold = spread<Group>(tolerance);
     Best best;
-    for_each_group(problem, tolerance, [&](int k, const Group& threshold) {
+    for (int k = 0; k < problem.row_count; k += lanes)
       best.meet(load<Group>(&violation_[index(k)]), weight_at(k), threshold);
-    });
     return row_of(best, problem, tolerance);
   }
 
@@ -88,15 +88,16 @@ class RowScan {
   int add(const Problem& problem, const Step& z, Scalar length, Scalar slope, Scalar tolerance) noexcept {
     const SixGroups direction = spread_all(z);
     const Group step = spread<Group>(length), factor = spread<Group>(Scalar(1) / slope);
+    const Group threshold = spread<Group>(tolerance);
     Best best;
-    for_each_group(problem, tolerance, [&](int k, const Group& threshold) {
+    for (int k = 0; k < problem.row_count; k += lanes) {
       const Group along = dot_of_six<Group>(load_rows(problem, k), direction);
       const Group violation = load<Group>(&violation_[index(k)]) - product(step, along);
       store(&violation_[index(k)], violation);
       store(&weight_[index(k)],
             Group(load<Group>(&weight_[index(k)]) - product(product(factor, along), along)));
       best.meet(violation, weight_at(k), threshold);
-    });
+    }
     return row_of(best, problem, tolerance);
   }
 
@@ -193,6 +194,7 @@ class RowScan {
       store(&least_weight_[index(k)], Group(product(share, weight) + least));
       best.meet(violation, weight, threshold);
     });
+    clear_rest(problem);
     return row_of(best, problem, tolerance);
   }
 
@@ -215,6 +217,7 @@ class RowScan {
       store(&violation_[index(k)], violation);
       is_above |= violation > threshold;
     });
+    clear_rest(problem);
     if constexpr (lanes == 1) {
       return is_above;
     } else {
@@ -223,6 +226,11 @@ class RowScan {
       for (const LaneBits<Scalar> bits : std::bit_cast<Bits>(is_above)) any |= bits;
       return any != 0;
     }
+  }
+
+  /// What a last group holds behind the last row is not violated, however it is followed.
+  void clear_rest(const Problem& problem) noexcept {
+    for (int k = problem.row_count; k % lanes != 0; ++k) set_active(k);
   }
 
   /// Calls `visit` with every group of rows and with a threshold that no number behind the last row exceeds.
