@@ -53,12 +53,15 @@ void check(unsigned seed) {
       BOOST_TEST(std::abs((height(h) - height(-h)) / 2e-5 - row[k]) < 1e-9);
     }
 
-    // The gradient of the energy vanishes at the target and there only.
-    const feeler::Metric<double> metric = feeler::Metric<double>::with_length(0.01);
-    BOOST_TEST(coordinates.gradient(metric, base).norm() < 1e-15);
-    const Vector6<double> newton =
-        -coordinates.hessian(metric).ldlt().solve(coordinates.gradient(metric, coordinates.pose_at(step)));
-    BOOST_TEST((newton - step).norm() < 1e-12);
+    // The gradient of the energy vanishes at the target and there only, and Newton's step leads there.
+    const Pose<double> target = coordinates.pose_at(step);
+    for (const Eigen::Vector3d& weights : {Eigen::Vector3d(1, 1, 1), Eigen::Vector3d(1, 3, 10)}) {
+      const feeler::Metric<double> metric{Eigen::Vector3d(1, 1, 1), 1e-4 * weights};
+      BOOST_TEST(coordinates.gradient(metric, base).norm() < 1e-15);
+      const Vector6<double> newton =
+          -coordinates.hessian(metric, target).ldlt().solve(coordinates.gradient(metric, target));
+      BOOST_TEST((newton - step).norm() < 1e-12);
+    }
   }
 }
 

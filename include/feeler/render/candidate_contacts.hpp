@@ -146,9 +146,10 @@ class CandidateContactsFollower {
       if (best.is_there || best.moved > best.length / 8) {
         if (best.is_there) active_ = best.solution->active;
         const bool is_whole = best.is_there && !best.solution->is_capped;
-        pose_ = is_whole && active_.empty() ? target_ : best.pose;
+        const bool is_home = is_whole && active_.empty() && scene.has_led_to(target_, best.pose, best.length);
+        pose_ = is_home ? target_ : best.pose;
         tick.path.push_back(scene.tool_pose(pose_));
-        if (is_whole && (active_.empty() || best.length < Scalar(scene.settings().step_tolerance))) return true;
+        if (is_whole && (is_home || best.length < Scalar(scene.settings().step_tolerance))) return true;
       }
       trust_ = best.is_there ? std::min(2 * trust_, scene.trust_radius()) : std::min(trust_, best.length) / 4;
       if (trust_ < resting) break;

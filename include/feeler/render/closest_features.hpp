@@ -87,6 +87,7 @@ class ClosestFeaturesFollower {
     bool is_settled = false;     // another linearisation would not change it
     bool is_capped = false;      // the trust region cut it
     bool is_free = false;        // no contact holds the tool
+    bool is_home = false;        // and it ends at the haptic pose
     bool is_at_rest = false;     // measured where it starts, the tool would stay
     bool is_taken_back = false;  // its second step took back the first, and what stopped the two holds the tool
     Scalar restoration = 0;      // energy that it may cost to win the margin back [m²]
@@ -141,7 +142,7 @@ class ClosestFeaturesFollower {
         if (!linearisation_.admit(scene, result) && budget_.is_first_iteration()) limits_.shorten(linearisation_.is_empty(), length / 8);
       } else {
         const bool is_done = result.is_whole() && proposal.is_settled && !proposal.is_capped;
-        pose_ = is_done && proposal.is_free ? target_ : turns.moved(pose_, proposal.motion * result.time);
+        pose_ = is_done && proposal.is_home ? target_ : turns.moved(pose_, proposal.motion * result.time);
         if (result.time > Scalar(0)) {
           tick.path.push_back(scene.tool_pose(pose_));
           linearisation_.pairs().approach(length * result.time);
@@ -223,9 +224,10 @@ class ClosestFeaturesFollower {
       const bool is_short = last < Scalar(scene.settings().step_tolerance) && (shrinks_fast || last < very_short(scene));
       previous = last;
       const bool rests_on_kept = problem.rests_on_kept();
+      proposal.is_home = proposal.is_free && !proposal.is_capped && scene.has_led_to(target_, pose, length);
       proposal.is_taken_back = is_taken_back && rests_on_kept && last < very_short(scene) && !proposal.is_capped;
       proposal.is_settled =
-          (is_short && is_measured && !rests_on_assumption && !rests_on_kept && problem.keeps_features()) || proposal.is_free;
+          (is_short && is_measured && !rests_on_assumption && !rests_on_kept && problem.keeps_features()) || proposal.is_home;
       if (proposal.is_settled || proposal.is_capped || (is_short && rests_on_kept)) return proposal;
     }
     return proposal;

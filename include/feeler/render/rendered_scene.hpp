@@ -125,6 +125,14 @@ class RenderedScene {
   Scalar length_of(const Twist<Scalar>& motion, const Pose<Scalar>& from) const noexcept {
     return motion.linear.norm() + radius_ * idle_turns_.angle_that_matters(motion.angular, from);
   }
+  /// Whether a motion of a length [m] that ended at a pose has led to the target, but for rounding.
+  bool has_led_to(const Pose<Scalar>& target, const Pose<Scalar>& pose, Scalar length) const noexcept {
+    const Scalar rounding = 16 * std::numeric_limits<Scalar>::epsilon();
+    const Scalar off = (pose.translation - target.translation).template lpNorm<1>();
+    if (!(off <= rounding * (target.translation.template lpNorm<1>() + length + radius_))) return false;
+    const Scalar side = pose.rotation.dot(target.rotation) < Scalar(0) ? Scalar(-1) : Scalar(1);
+    return (pose.rotation.coeffs() - side * target.rotation.coeffs()).template lpNorm<1>() <= rounding;
+  }
   /// The corners of a triangle in the tool frame of a pose with the axes given [m].
   Matrix3<Scalar> in_tool(const Matrix3<Scalar>& corners_world, const Pose<Scalar>& pose,
                           const Matrix3<Scalar>& axes) const noexcept {

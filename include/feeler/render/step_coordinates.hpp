@@ -57,7 +57,13 @@ class StepCoordinates {
   }
 
   /// Second derivative and gradient of the energy (paper, eq. 3) at the base by the coordinates.
-  Matrix6<Scalar> hessian(const Metric<Scalar>& metric) const noexcept { return metric.hessian({}); }
+  Matrix6<Scalar> hessian(const Metric<Scalar>& metric, const Pose<Scalar>& target) const noexcept {
+    if constexpr (increments == Increments::rotation_vector) {
+      return metric.homing_hessian(motion_between(target, base_));
+    } else {
+      return metric.hessian({});
+    }
+  }
   Vector6<Scalar> gradient(const Metric<Scalar>& metric, const Pose<Scalar>& target) const noexcept {
     if constexpr (increments == Increments::rotation_vector) {
       return metric.gradient(motion_between(target, base_));

@@ -109,10 +109,10 @@ class StepProblem {
   /// Room that the last step left to a row before it would stop it, to first order [m]; 0 for an active one.
   Scalar room_after(int k) const noexcept { return problem_.rows[index(k)].dot(solution_.step) - problem_.bounds[index(k)]; }
 
-  /// The step that minimises f with its own Hessian.
+  /// The step that minimises f with its own Hessian: the way home, where no row holds.
   const Vector6<Scalar>& project(const Metric<Scalar>& metric, const Twist<Scalar>& graphic_from_haptic, Scalar margin) noexcept {
     load_rows(margin);
-    problem_.hessian = metric.hessian({});
+    problem_.hessian = metric.homing_hessian(graphic_from_haptic);
     problem_.gradient = metric.gradient(graphic_from_haptic);
     solve_relaxing(margin);
     is_free_ = solution_.active.empty();

@@ -62,6 +62,9 @@ struct Metric {
     return h;
   }
 
+  /// Hessian of the quadratic that has this gradient and its minimum at −e, where the motion home ends: M, or Gauss–Newton's.
+  Matrix6<Scalar> homing_hessian(const Twist<Scalar>& e) const noexcept { return hessian(is_isotropic() ? Twist<Scalar>{} : e); }
+
   bool is_isotropic() const noexcept {
     return rotational.x() == rotational.y() && rotational.y() == rotational.z();
   }
