@@ -63,7 +63,7 @@ struct Metric {
   }
 
   /// Hessian of the quadratic that has this gradient and its minimum at −e, where the motion home ends: M, or Gauss–Newton's.
-  Matrix6<Scalar> homing_hessian(const Twist<Scalar>& e) const noexcept { return hessian(is_isotropic() ? Twist<Scalar>{} : e); }
+  Matrix6<Scalar> homing_hessian(const Twist<Scalar>& e) const noexcept { return is_isotropic() ? hessian({}) : hessian(e); }
 
   bool is_isotropic() const noexcept {
     return rotational.x() == rotational.y() && rotational.y() == rotational.z();
