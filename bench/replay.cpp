@@ -68,7 +68,7 @@ Figures replay(const feeler::scenes::Setting& scene, const Tool& tool, const Opt
   const feeler::TriangleMesh<double> object(scene.vertices, scene.triangles);
   auto settings = scene.settings();
   if (options.work_budget > 0) settings.work_budget = options.work_budget;
-  if (options.margin > 0.0) settings.margin = options.margin;
+  if (options.margin != 0.0) settings.margin = options.margin;
   feeler::HapticRenderer renderer(object, tool, settings);
   if (renderer.reset(scene.start) != feeler::Status::converged) throw std::runtime_error("the scene starts in penetration");
 
@@ -173,7 +173,7 @@ int main(int argc, char** argv) {
   app.add_option("--check", options.check_every, "check every Nth tick for penetration; 0 for none")->check(CLI::NonNegativeNumber);
   app.add_option("--settle", options.settle_every, "hold the device at every Nth contact tick and see where the tool settles; 0 for none")->check(CLI::NonNegativeNumber);
   app.add_option("--budget", options.work_budget, "Settings::work_budget; 0 for the default")->check(CLI::NonNegativeNumber);
-  app.add_option("--margin", options.margin, "Settings::margin in metres; 0 for the default")->check(CLI::NonNegativeNumber);
+  app.add_option("--margin", options.margin, "Settings::margin in metres; 0 for the default");
   app.add_flag("--work", options.counts_work, "report the work of a tick, which does not depend on the machine, in place of its time");
   return feeler::bench::run_with_options(app, argc, argv, [&] {
     const auto wanted = [&](const std::string& name) { return options.scene == "all" || options.scene == name; };

@@ -35,10 +35,13 @@ class HapticRenderer {
   using Working = WorkingScalar<Scalar>;
   using Follower = typename Method::template Follower<Tool, Solver>;
 
+  /// Refuses settings with which the tool could not follow, or could penetrate; see `Settings`.
   HapticRenderer(const TriangleMesh<Scalar>& object, const Tool& tool, const Settings<Scalar>& settings = {});
   HapticRenderer(TriangleMesh<Scalar>&&, const Tool&, const Settings<Scalar>& = {}) = delete;
 
   const Settings<Scalar>& settings() const noexcept { return scene_.settings(); }
+  /// The metric in which the graphic pose is the nearest.
+  const Metric<Working>& metric() const noexcept { return scene_.metric(); }
 
   /// Puts the graphic tool at a pose; `Status::penetrating` if it would overlap the object there, and then the renderer holds no pose.
   /// @cost  not bounded by the work budget: for use outside the loop
@@ -81,6 +84,7 @@ Status HapticRenderer<ToolType, Solver, Method>::reset(const Pose<Scalar>& pose)
   const Pose<Working> reference_pose = scene_.reference_pose(pose);
   if (!is_free_at(reference_pose)) return tick_.status = Status::penetrating;
   follower_.reset(scene_, reference_pose);
+  tick_.graphic_pose = scene_.tool_pose(reference_pose);  // to the last bit what ticks that do not move give
   is_reset_ = true;
   return tick_.status = Status::converged;
 }

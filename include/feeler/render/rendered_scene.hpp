@@ -5,7 +5,9 @@
 #include <array>
 #include <limits>
 #include <span>
+#include <string>
 #include <type_traits>
+#include <utility>
 
 #include "feeler/object/triangle_mesh.hpp"
 #include "feeler/proximity/clearance.hpp"
@@ -13,6 +15,7 @@
 #include "feeler/proximity/separation.hpp"
 #include "feeler/render/idle_turns.hpp"
 #include "feeler/render/settings.hpp"
+#include "feeler/render/usable_settings.hpp"
 #include "feeler/tool/piece_tree.hpp"
 #include "feeler/tool/rigid_tool.hpp"
 #include "feeler/tool/tool_incidence.hpp"
@@ -44,9 +47,9 @@ class RenderedScene {
   RenderedScene(const TriangleMesh<MeshScalar>& object, const ToolType& tool, const Settings<MeshScalar>& settings)
       : object_(&object),
         tool_(detail::working_tool<Scalar>(tool)),
-        settings_(settings),
+        settings_(usable(settings, symmetry_of<Tool> != Symmetry::about_point)),
         reference_(settings.reference_point.template cast<Scalar>()),
-        metric_(settings.metric_in_use().template cast<Scalar>()),
+        metric_(metric_of(settings)),
         idle_turns_(tool_, reference_, metric_),
         piece_tree_(tool_) {
     Scalar surface = Scalar(0);
@@ -58,9 +61,14 @@ class RenderedScene {
     }
     const Scalar size = std::max(surface, Scalar(object.bounds().diagonal().norm()));
     const Scalar rounding = 256 * std::numeric_limits<Scalar>::epsilon() * size;
-    clearance_.kept = margin() / 10;
-    clearance_.kept_from_unknown = margin() * 9 / 10;  // or the tool would hop when one is found
     clearance_.allowance = std::max(clearance_.allowance, rounding);
+    const Scalar least_margin = 20 * clearance_.allowance;
+    if (!(Scalar(settings.margin) >= least_margin && settings.margin <= std::numeric_limits<MeshScalar>::max()))
+      refuse("HapticRenderer: Settings::margin is not a length of at least " + std::to_string(long(double(least_margin) * 1e12 + 0.5)) +
+             " pm; with less, rounding can carry the tool through a surface; leave the default of 1 µm if in doubt");
+    margin_ = std::max(Scalar(settings.margin), 10 * rounding_of_poses(object.bounds(), surface + reference_.norm()));
+    clearance_.kept = margin_ / 10;
+    clearance_.kept_from_unknown = margin_ * 9 / 10;  // or the tool would hop when one is found
     clearance_.touching = touching_distance(radius_);
     clearance_.probe = trust_radius() / 4;
   }
@@ -93,7 +101,8 @@ class RenderedScene {
     clearance.kept_from_unknown = std::max(clearance.kept_from_unknown, rounding);
     return clearance;
   }
-  Scalar margin() const noexcept { return Scalar(settings_.margin); }
+  /// `Settings::margin`, or more where the poses that are returned have not the digits for it [m].
+  Scalar margin() const noexcept { return margin_; }
   Scalar trust_radius() const noexcept { return Scalar(settings_.trust_radius); }
 
   /// Pose of the reference point, from the pose of the tool frame.
@@ -141,6 +150,25 @@ class RenderedScene {
 
  private:
   static std::size_t index(int i) noexcept { return std::size_t(i); }
+  /// A sphere's turns may weigh nothing; where nobody turns it any other weight does as well.
+  static Metric<Scalar> metric_of(const Settings<MeshScalar>& settings) noexcept {
+    Metric<Scalar> metric = settings.metric_in_use().template cast<Scalar>();
+    if constexpr (symmetry_of<Tool> == Symmetry::about_point) metric.rotational.setOnes();
+    return metric;
+  }
+  /// How far a point of the tool may be from where it should be when the tool touches the object and its pose is rounded to the user's
+  /// scalar, where that is the narrower one [m].
+  /// @param reach  of the tool from the origin of its frame [m]
+  static Scalar rounding_of_poses(const Eigen::AlignedBox<MeshScalar, 3>& object, Scalar reach) noexcept {
+    if constexpr (std::is_same_v<MeshScalar, Scalar>) {
+      return Scalar(0);
+    } else {
+      const Scalar unit = Scalar(std::numeric_limits<MeshScalar>::epsilon()) / 2;
+      const Vector3<Scalar> farthest = object.min().cwiseAbs().cwiseMax(object.max().cwiseAbs()).template cast<Scalar>();
+      return unit * (farthest.norm() + reach) + 4 * unit * reach;  // a quaternion off by δ turns by 2 δ, and stretches by as much
+    }
+  }
+
   struct NoGroups {
     explicit NoGroups(const Tool&) noexcept {}
   };
@@ -156,6 +184,7 @@ class RenderedScene {
   [[no_unique_address]] IdleTurns<Tool> idle_turns_;
   [[no_unique_address]] std::conditional_t<CompoundShape<Tool>, PieceTree<Tool>, NoGroups> piece_tree_;
   Clearance<Scalar> clearance_;
+  Scalar margin_;
 };
 
 }  // namespace feeler

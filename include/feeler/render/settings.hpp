@@ -18,7 +18,8 @@ struct Settings {
   /// holds the tool: the same metric about another point is another problem with another solution.
   Vector3<Scalar> reference_point = Vector3<Scalar>::Zero();
 
-  /// K of the paper's eq. 4 [N/m, N·m/rad]. Take it from the device: more than it can render makes it buzz.
+  /// K of the paper's eq. 4 [N/m, N·m/rad]. Take it from the device: more than it can render makes it buzz. A zero, where no force or torque
+  /// is to be felt, needs a `metric`: nothing else would draw the tool to the hand there.
   Stiffness<Scalar> stiffness = {};
 
   /// M of the paper's eq. 3. Unset, it is proportional to K, and the wrench is the exact sum of the contact forces; another metric
@@ -28,6 +29,8 @@ struct Settings {
 
   /// Distance kept between tool and object [m]. It smooths the edges of the obstacle: less is more exact and needs more
   /// iterations; below 1e-8 convergence is lost, above 1e-5 it can be felt. Tighter fits than twice the margin are still rendered.
+  /// Less than 1e-10 is refused. With poses of `float` it is not less than ten times their rounding, which exceeds the default where
+  /// the object reaches a metre from the origin.
   Scalar margin = Scalar(1e-6);
 
   /// Longest motion of any tool point between two linearisations in contact [m]; up to eight times as long where nothing has stopped a few

@@ -182,7 +182,7 @@ noexcept {
   if (status != Status::converged && status != Status::unconverged) return result;
 
   const auto& settings = renderer.settings();
-  const Metric<Scalar> metric = settings.metric_in_use().template cast<Scalar>();
+  const Metric<Scalar>& metric = renderer.metric();
   const Vector3<Scalar> stiffness = settings.stiffness.translational.template cast<Scalar>();
   const Vector3<Scalar> rotational_stiffness = settings.stiffness.rotational.template cast<Scalar>();
   const Vector3<Scalar> phi =

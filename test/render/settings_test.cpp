@@ -1,0 +1,178 @@
+// Settings that are refused, and those at the ends of what is taken.
+#include <boost/test/unit_test.hpp>
+
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <string>
+
+#include "feeler/render/wrench_derivative.hpp"
+#include "scenes/motions.hpp"
+#include "support/refusal.hpp"
+#include "support/rendering.hpp"
+
+BOOST_AUTO_TEST_SUITE(settings_of_a_renderer)
+
+using namespace feeler;
+using namespace feeler::test;
+using feeler_test::contains;
+using feeler_test::refusal;
+
+namespace {
+
+const double not_a_number = std::numeric_limits<double>::quiet_NaN();
+const double infinity = std::numeric_limits<double>::infinity();
+const Box<double> cube(Vector3<double>::Constant(0.01));
+const SphereSwept<Point<double>> ball(Point<double>(), 0.01);
+
+/// Corners of a square of ±side in the plane x = 0, moved along x.
+template <class Scalar>
+Points<Scalar> wall_at(Scalar x, Scalar side = Scalar(1)) {
+  Points<Scalar> vertices(4, 3);
+  vertices << x, -side, -side, x, side, -side, x, side, side, x, -side, side;
+  return vertices;
+}
+const Triangles wall_triangles{{0, 1, 2}, {0, 2, 3}};
+
+template <class Tool>
+std::string refusal_of(const Tool& tool, const std::function<void(Settings<double>&)>& change) {
+  const TriangleMesh<double> object(wall_at(0.0), wall_triangles);
+  Settings<double> settings;
+  change(settings);
+  return refusal([&] { HapticRenderer(object, tool, settings); });
+}
+
+}  // namespace
+
+BOOST_AUTO_TEST_CASE(what_is_no_length_or_no_count_is_refused_by_name) {
+  using Length = double Settings<double>::*;
+  for (const auto& [name, field] : {std::pair<const char*, Length>{"margin", &Settings<double>::margin},
+                                    {"trust_radius", &Settings<double>::trust_radius},
+                                    {"step_tolerance", &Settings<double>::step_tolerance}}) {
+    const Length length = field;
+    for (const double bad : {not_a_number, -infinity, -1e-6, -0.0, 0.0})
+      BOOST_TEST(contains(refusal_of(cube, [&](auto& settings) { settings.*length = bad; }), name), name << " = " << bad);
+  }
+  for (const int bad : {0, -1, std::numeric_limits<int>::min()}) {
+    BOOST_TEST(contains(refusal_of(cube, [&](auto& settings) { settings.maximum_iterations = bad; }), "maximum_iterations"));
+    BOOST_TEST(contains(refusal_of(cube, [&](auto& settings) { settings.work_budget = bad; }), "work_budget"));
+  }
+  BOOST_TEST(refusal_of(cube, [](auto& settings) { settings.maximum_iterations = settings.work_budget = 1; }) == "accepted");
+  BOOST_TEST(refusal_of(cube, [](auto& settings) { settings.trust_radius = infinity; }) == "accepted");
+}
+
+BOOST_AUTO_TEST_CASE(a_margin_that_rounding_can_cross_is_refused) {
+  const auto with_margin = [](double margin) { return refusal_of(cube, [&](auto& settings) { settings.margin = margin; }); };
+  BOOST_TEST(contains(with_margin(0.99e-10), "at least 100 pm"));
+  BOOST_TEST(contains(with_margin(infinity), "margin"));
+  BOOST_TEST(with_margin(1.01e-10) == "accepted");
+  // Rounding grows with the object.
+  const TriangleMesh<double> country(wall_at(0.0, 1e6), wall_triangles);
+  Settings<double> settings;
+  BOOST_TEST(contains(refusal([&] { HapticRenderer(country, cube, settings); }), "margin"));
+  settings.margin = 1e-5;
+  BOOST_TEST(refusal([&] { HapticRenderer(country, cube, settings); }) == "accepted");
+}
+
+BOOST_AUTO_TEST_CASE(a_reference_point_or_a_weight_that_is_not_finite_is_refused) {
+  for (const double bad : {not_a_number, infinity, -infinity, -1.0}) {
+    for (int axis = 0; axis < 3; ++axis) {
+      if (bad != -1.0)
+        BOOST_TEST(contains(refusal_of(cube, [&](auto& settings) { settings.reference_point[axis] = bad; }), "reference_point"));
+      BOOST_TEST(contains(refusal_of(cube, [&](auto& settings) { settings.stiffness.translational[axis] = bad; }), "stiffness"));
+      BOOST_TEST(contains(refusal_of(cube, [&](auto& settings) { settings.stiffness.rotational[axis] = bad; }), "stiffness"));
+      BOOST_TEST(contains(refusal_of(cube, [&](auto& settings) { settings.metric.emplace().translational[axis] = bad; }), "metric"));
+      BOOST_TEST(contains(refusal_of(cube, [&](auto& settings) { settings.metric.emplace().rotational[axis] = bad; }), "metric"));
+    }
+  }
+}
+
+BOOST_AUTO_TEST_CASE(no_stiffness_needs_a_metric_which_moves_the_tool_without_a_force) {
+  const auto without_torque = [](Settings<double>& settings) { settings.stiffness.rotational.setZero(); };
+  const auto without_force = [](Settings<double>& settings) { settings.stiffness.translational.z() = 0; };
+  BOOST_TEST(contains(refusal_of(cube, without_torque), "metric"));
+  BOOST_TEST(contains(refusal_of(cube, without_force), "metric"));
+  BOOST_TEST(contains(refusal_of(ball, without_force), "metric"));
+  BOOST_TEST(contains(refusal_of(cube, [](auto& settings) { settings.metric = Metric<double>::with_length(0); }), "metric"));
+
+  const TriangleMesh<double> object(wall_at(0.0), wall_triangles);
+  Settings<double> settings;
+  settings.stiffness = Stiffness<double>::uniform(0, 0);
+  settings.metric = Metric<double>::with_length(0.02);
+  HapticRenderer renderer(object, cube, settings);
+  BOOST_TEST_REQUIRE((renderer.reset({{0.02, 0, 0}, Quaternion<double>::Identity()}) == Status::converged));
+  const auto& tick = renderer.update({{-0.005, 0.01, 0}, Quaternion<double>::Identity()});
+  BOOST_TEST(std::abs(tick.graphic_pose.translation.x() - 0.01) <= 2e-6);
+  BOOST_TEST(std::abs(tick.graphic_pose.translation.y() - 0.01) <= 1e-12);
+  BOOST_TEST(tick.wrench.force.isZero(0));
+  BOOST_TEST(tick.wrench.torque.isZero(0));
+}
+
+BOOST_AUTO_TEST_CASE(a_sphere_needs_no_weight_of_turns) {
+  // Devices that push no torque give none.
+  const TriangleMesh<double> object(wall_at(0.0), wall_triangles);
+  Settings<double> settings;
+  settings.stiffness = Stiffness<double>::uniform(1000, 0);
+  HapticRenderer renderer(object, ball, settings), weighing(object, ball);
+  for (auto* r : {&renderer, &weighing}) BOOST_TEST_REQUIRE((r->reset({{0.03, 0, 0}, Quaternion<double>::Identity()}) == Status::converged));
+  for (int i = 0; i < 50; ++i) {
+    const Pose<double> haptic{{0.02 * std::cos(0.2 * i), 0.001 * i, 0}, rotation_by({0.1 * i, 0, 0.05 * i}).cast<double>()};
+    BOOST_TEST(pose_error(renderer.update(haptic).graphic_pose, weighing.update(haptic).graphic_pose).at(0) <= 1e-12);
+    BOOST_TEST(renderer.tick().wrench.torque.isZero(0));
+    BOOST_TEST(wrench_derivative(renderer).matrix.topLeftCorner(3, 3).isApprox(wrench_derivative(weighing).matrix.topLeftCorner(3, 3)));
+  }
+}
+
+BOOST_AUTO_TEST_CASE(weights_of_any_ratio_leave_the_tool_outside) {
+  const TriangleMesh<double> object(wall_at(0.0), wall_triangles);
+  const Witness witness(wall_at(0.0), wall_triangles, cube);
+  for (const double rotational : {1e-15, 1e-9, 1e-3, 1e3, 1e9}) {
+    for (const Vector3<double>& translational : {Vector3<double>(1000, 1000, 1000), Vector3<double>(1e-6, 1, 1e6), Vector3<double>(1e6, 1, 1e-6)}) {
+      Settings<double> settings;
+      settings.stiffness = {translational, {rotational, 2 * rotational, 100 * rotational}};
+      HapticRenderer renderer(object, cube, settings);
+      BOOST_TEST_REQUIRE((renderer.reset({{0.03, 0, 0}, Quaternion<double>::Identity()}) == Status::converged));
+      const int ticks = ticks_to_run(500);
+      int converged = 0;
+      double deepest = 0;
+      for (int i = 0; i < ticks; ++i) {
+        const double t = i * 4e-3;
+        const WideVector turn(std::sin(t), 0.7 * std::cos(2 * t), 0.5 * std::sin(3 * t));
+        const auto& tick = renderer.update({{0.012 * std::cos(7 * t), 0.02 * std::sin(3 * t), 0.02 * std::sin(5 * t)}, rotation_by(turn).cast<double>()});
+        converged += tick.converged();
+        deepest = std::max(deepest, witness.depth_at(tick.graphic_pose));
+      }
+      BOOST_TEST(deepest <= touching_depth, "rotational " << rotational);
+      BOOST_TEST(converged >= ticks * 9 / 10, converged << " of " << ticks << ", rotational " << rotational << ", translational " << translational.transpose());
+    }
+  }
+}
+
+BOOST_AUTO_TEST_CASE(poses_of_float_are_as_far_from_the_object_as_their_rounding_asks) {
+  const Box<float> tool(Vector3<float>::Constant(0.01f));
+  for (const float margin : {1e-6f, 1e-7f}) {
+    for (const float x : {0.0f, 0.3f, 1.0f, 3.0f, 10.0f, 100.0f}) {
+      const TriangleMesh<float> object(wall_at(x), wall_triangles);
+      const Witness witness(wall_at(double(x)), wall_triangles, tool.cast<double>());
+      Settings<float> settings;
+      settings.margin = margin;
+      settings.reference_point = {0.005f, 0, 0};
+      HapticRenderer renderer(object, tool, settings);
+      BOOST_TEST_REQUIRE((renderer.reset({{x + 0.03f, 0, 0}, Quaternion<float>::Identity()}) == Status::converged));
+      scenes::RandomBits random(5);
+      double deepest = 0, nearest = 1;
+      for (int i = 0; i < ticks_to_run(1000); ++i) {
+        const auto symmetric = [&] { return float(2 * random.unit() - 1); };
+        const Pose<float> haptic{{x - 0.01f * symmetric(), 0.2f * symmetric(), 0.2f * symmetric()},
+                                 Quaternion<float>(1, 0.3f * symmetric(), 0.3f * symmetric(), 0.3f * symmetric()).normalized()};
+        const auto& tick = renderer.update(haptic);
+        deepest = std::max(deepest, witness.depth_at(tick.graphic_pose));
+        for (const auto& contact : tick.contacts) nearest = std::min(nearest, double(contact.gap));
+      }
+      BOOST_TEST(deepest <= touching_depth, deepest << " m at " << x << " m, margin " << margin);
+      BOOST_TEST(nearest <= std::max(2.0 * margin, 1.5e-6 * (1 + x)));  // and no farther than that
+    }
+  }
+}
+
+BOOST_AUTO_TEST_SUITE_END()
