@@ -104,6 +104,26 @@ BOOST_AUTO_TEST_CASE(a_hostile_device_never_wears_the_clearance_of_a_line_on_the
   check_hostile(scenes::steps(), "steps", 4000, 1, touching_depth, 34);
 }
 
+BOOST_AUTO_TEST_CASE(a_leaping_device_never_wears_the_clearance_of_a_line_in_a_corner_down_to_nothing) {
+  scenes::Scene scene = scenes::cavity(0.01);
+  Settings<double> settings = scene.settings();
+  settings.margin = 1e-8;
+  for (std::uint32_t seed = 0; seed < 40; ++seed) {
+    const double size = seed % 2 == 0 ? 1e-5 : 8e-3;  // a tiny one turns far within the trust region; a long one is caught between walls
+    scenes::RandomBits random(seed);
+    const Vector3<double> from = size * random.unit() * random.direction();
+    scene.tool = Segment<double>(from, from + size * random.direction());
+    Pose<double> hand = scene.start;
+    const auto leaps = [&](int i) {
+      const auto symmetric = [&] { return 2 * random.unit() - 1; };
+      if (i % (size < 1e-3 ? 5 : 20) == 0)
+        hand = {{symmetric(), symmetric(), symmetric()}, exp_rotation<double>(std::numbers::pi * random.unit() * random.direction())};
+      return hand;
+    };
+    check("seed " + std::to_string(seed), account_of(scene, settings, ticks_to_run(300), 1, touching_depth, leaps));
+  }
+}
+
 BOOST_AUTO_TEST_CASE(turns_that_weigh_differently_by_axis_make_no_tool_penetrate_a_plate) {
   // Then the step home is not the gradient's: a motion certified must be the one that is made.
   const scenes::Scene scene = scenes::plate(3);
@@ -117,6 +137,34 @@ BOOST_AUTO_TEST_CASE(turns_that_weigh_differently_by_axis_make_no_tool_penetrate
     return hand;
   };
   check("plate", account_of(scene, settings, ticks_to_run(2000), 1, touching_depth, leaps));
+}
+
+BOOST_AUTO_TEST_CASE(half_a_turn_is_made_in_legs_that_tell_which_way_round_it_went) {
+  scenes::Scene wall;
+  scenes::add_plates(wall, {{{0, 0.02, 0}, {0.1, 0, 0}, {0, 0, 0.1}}});
+  wall.tool = Segment<double>({0, 0, 0}, {0, 0, 0.05});
+  const TriangleMesh<double> object(wall.vertices, wall.triangles);
+  with_tool_of(wall, [&](const auto& tool) {
+    const Witness witness(wall.vertices, wall.triangles, tool);
+    HapticRenderer renderer(object, tool, wall.settings());
+    scenes::RandomBits random(44);
+    int stopped = 0;
+    for (int i = 0; i < 200; ++i) {
+      const Pose<double> start{{0, 0, 0}, exp_rotation<double>({0, 0, 6 * random.unit()})};
+      BOOST_TEST_REQUIRE((renderer.reset(start) == Status::converged));
+      const double azimuth = 6 * random.unit();
+      const auto& tick = renderer.update({start.translation, exp_rotation<double>(std::numbers::pi * Vector3<double>(std::cos(azimuth), std::sin(azimuth), 0)) * start.rotation});
+      BOOST_TEST(witness.depth_on_way(start, tick, 40) == 0);
+      stopped += !tick.contacts.empty();
+      const Pose<double>* from = &start;
+      for (const auto& to : tick.path) {
+        BOOST_TEST(from->rotation.angularDistance(to.rotation) <= 3.0001);
+        from = &to;
+      }
+    }
+    BOOST_TEST(stopped > 20);
+    BOOST_TEST(stopped < 180);
+  });
 }
 
 BOOST_AUTO_TEST_CASE(in_free_space_turns_that_weigh_differently_by_axis_follow_the_device_at_once) {

@@ -138,6 +138,22 @@ scenes::Scene walls(int count, double gap) {
   return scene;
 }
 
+/// Triangles of no breadth, some of no area, all about the origin.
+scenes::Setting slivers(std::uint32_t seed) {
+  scenes::RandomBits random(seed);
+  const auto symmetric = [&] { return 2 * random.unit() - 1; };
+  std::vector<Vector3<double>> corners;
+  for (int i = 0; i < 150; ++i) {
+    const Vector3<double> from = 0.08 * Vector3<double>(symmetric(), symmetric(), symmetric()), along = std::pow(10.0, -2 + random.unit()) * random.direction();
+    corners.insert(corners.end(), {from, from + along, from + random.unit() * along + std::pow(10.0, -18 + 14 * random.unit()) * random.direction()});
+  }
+  scenes::Setting scene;
+  scene.vertices = scenes::points_from(corners);
+  scene.triangles.resize(150, 3);
+  for (int i = 0; i < 150; ++i) scene.triangles.row(i) << 3 * i, 3 * i + 1, 3 * i + 2;
+  return scene;
+}
+
 /// Hands that break out to and fro at a speed, and jump from side to side with a spin.
 template <ConvexTool Tool>
 void try_to_break_out(const Tool& tool, double gap, const std::string& name, std::uint32_t seed) {
@@ -197,6 +213,23 @@ BOOST_AUTO_TEST_CASE(a_round_tool_never_crosses_a_thin_wall) {
   try_to_break_out(Sphere<double>(0.01), 0.02 + 1e-5, "tight sphere", 82);
   try_to_break_out(Capsule<double>({{-0.009, -0.002, -0.002}, {0.009, 0.002, 0.002}}, 0.0002), 0.03, "thin capsule", 83);
   try_to_break_out(RoundedBox<double>(Box<double>({0.010, 0.005, 0.0001}), 0.0001), 0.03, "rounded sheet", 84);
+}
+
+BOOST_AUTO_TEST_CASE(a_leaping_device_never_wears_the_clearance_of_a_round_tool_among_slivers_down) {
+  const Capsule<double> tool({{0, 0, -0.01}, {0, 0, 0.01}}, 0.01);
+  for (std::uint32_t seed = 85; seed < 89; ++seed) {
+    const scenes::Setting scene = slivers(seed);
+    const TriangleMesh<double> object(scene.vertices, scene.triangles);
+    HapticRenderer renderer(object, tool, scene.settings());
+    BOOST_TEST_REQUIRE((renderer.reset({{0, 0, 0.2}}) == Status::converged));
+    Watch<Capsule<double>> watch(scene, tool, touching_depth);
+    scenes::RandomBits random(seed);
+    for (int i = 0; i < ticks_to_run(300); ++i) {
+      const Vector3<double> to(random.unit(), random.unit(), random.unit());
+      watch.update(renderer, {0.12 * (to - Vector3<double>::Constant(0.5)), exp_rotation<double>(std::numbers::pi * random.unit() * random.direction())}, 3);
+    }
+    watch.check("slivers of seed " + std::to_string(seed));
+  }
 }
 
 BOOST_AUTO_TEST_CASE(a_held_device_makes_no_jitter) {

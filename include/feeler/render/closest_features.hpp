@@ -155,7 +155,7 @@ class ClosestFeaturesFollower {
         } else if (linearisation_.admit(scene, result)) {
           limits_.narrow_to_radius();
         } else {
-          limits_.narrow(length * std::max(result.time, Scalar(1) / 4));
+          limits_.narrow(std::min(limits_.trust(), length) * std::clamp(result.time, Scalar(1) / 4, Scalar(1) / 2));
         }
       }
     } while (tick.iterations < maximum_iterations && budget_.allows_another(tick.work) && !(limits_.trust() < resting));
@@ -217,6 +217,10 @@ class ClosestFeaturesFollower {
         pose = turns.moved(pose_, proposal.motion);
         if (proposal.is_free || problem.leaves_gaps(turns.motion_between(linearised, pose), scene.margin() / 2)) return proposal;
         continue;
+      }
+      if (proposal.is_capped && length > 2 * longest) {  // rows that all but contradict each other are met only far away
+        proposal.motion = proposal.motion * (longest / length);
+        return proposal;
       }
       rests_on_assumption = problem.rests_on_assumption();
       // A short step is the last one where steps shrink fast, and go on to, or where it is very short.

@@ -166,9 +166,10 @@ class Linearisation {
     }
   }
 
-  /// Takes what blocked a motion into the working set; false when all of it was there already with rows of its own.
+  /// Takes what blocked a motion into the working set; false when another linearisation would find no more than the last, as all of it was
+  /// there already with rows of its own, and it is the way that meets it.
   bool admit(const Scene& scene, const SweepResult<Scalar>& result) noexcept {
-    bool is_new = false;
+    bool is_new = false, meets_left_out = false, meets_touching = false;
     for (const auto& blocker : result.blockers) {
       const int i = pairs_.find(blocker.piece, blocker.triangle);
       if (i < 0) {
@@ -178,10 +179,17 @@ class Linearisation {
       }
       Pair& pair = pairs_[i];
       pair.note_use();
-      if (pair.state == PairState::left_out || pair.state == PairState::ghost) is_new = true;
-      if (pair.state == PairState::ghost) pair.keeps_ghost = true;
+      if (pair.state == PairState::ghost) {
+        is_new = pair.keeps_ghost = true;
+        pair.state = PairState::left_out;  // to be measured again, where all else is carried
+      } else if (pair.slack < touching(scene)) {
+        meets_touching = true;
+      } else if (pair.state == PairState::left_out) {
+        meets_left_out = true;
+      }
     }
-    return is_new;
+    // What touches stops the tool before what was left out comes near.
+    return is_new || (meets_left_out && !meets_touching);
   }
 
  private:

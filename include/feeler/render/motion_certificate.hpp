@@ -29,6 +29,7 @@ class MotionCertificate {
     for (auto& group : groups_) group.clear();
   }
 
+  /// How far a motion is free; of one that turns by more than 3 rad only as much is looked at.
   /// @param from    pose of the reference point
   /// @param work    grows by the work done
   /// @param limit   value of `work` at which it gives up
@@ -36,12 +37,14 @@ class MotionCertificate {
   template <int pair_capacity = 1>
   SweepResult<Scalar> certify(const Scene& scene, const Pose<Scalar>& from, const Twist<Scalar>& motion, int& work, int limit,
                               const WorkingSet<Scalar, pair_capacity>& pairs = {}, Scalar far = std::numeric_limits<Scalar>::infinity()) noexcept {
+    const Scalar turn = motion.angular.norm();
+    Scalar until = turn > longest_turn ? longest_turn / turn : Scalar(1);
     if constexpr (!CompoundShape<ToolType>) {
-      return certify_piece(0, scene, scene.moving(0, from, motion), work, limit, pairs, far, Scalar(1));
+      return certify_piece(0, scene, scene.moving(0, from, motion), work, limit, pairs, far, until);
     } else {
       const auto is_near = find_near_pieces(scene, from, motion, work, limit);
       SweepResult<Scalar> result;
-      Scalar until = Scalar(1);
+      result.time = until;
       for (int piece = 0; piece < scene.piece_count(); ++piece) {
         if (!is_near[std::size_t(piece)]) continue;
         const MovingTool<Piece> moving = scene.moving(piece, from, motion);
@@ -79,6 +82,8 @@ class MotionCertificate {
     }
   };
   static constexpr int rest_after_failure = 64;
+  /// Of half a turn the poses at its ends do not tell which way round it went [rad].
+  static constexpr Scalar longest_turn = Scalar(3);
 
   /// The pieces that no group shows to pass everything.
   std::bitset<std::size_t(maximum_pieces<ToolType>)> find_near_pieces(const Scene& scene, const Pose<Scalar>& from, const Twist<Scalar>& motion,

@@ -35,7 +35,8 @@ struct Tick {
   Status status = Status::not_reset;
 
   /// The way from the last graphic pose to this one, which is its last pose: between poses the reference point moves on a straight line and
-  /// the axes turn at a constant rate, free of collision all along. Empty when the tool did not move.
+  /// the axes turn at a constant rate, by 3 rad at most and so the shorter way round, free of collision all along. Empty when the tool did not
+  /// move.
   FixedVector<Pose<Scalar>, path_capacity> path;
 
   int iterations = 0;  ///< linearisations solved
