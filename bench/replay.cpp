@@ -76,8 +76,7 @@ Figures replay(const feeler::scenes::Setting& scene, const Tool& tool, const Opt
       options.hostile_seed != 0 ? feeler::scenes::hostile(scene.motion, options.hostile_seed, options.rate) : scene.motion;
   const auto metric = feeler::Metric<double>::proportional_to(settings.stiffness);
   const feeler::test::CheckedObject checked_object(scene.vertices, scene.triangles);
-  std::vector<feeler::test::CheckedTool> checked_pieces;
-  for (int i = 0; i < feeler::piece_count(tool); ++i) checked_pieces.push_back(feeler::test::checked_tool(feeler::piece_of(tool, i)));
+  const auto checked_pieces = feeler::test::checked_pieces(tool);
   Figures figures;
   figures.ticks = int(options.seconds * options.rate);
   Pose<double> last = scene.start;

@@ -106,8 +106,7 @@ Run run_method(const scenes::Setting& scene, const Tool& tool, const Settings<do
   Observer<Tool> observer(object, tool);
   HapticRenderer<Tool, TimedSolver, MethodType> renderer(object, tool, settings);
   const test::CheckedObject checked_object(scene.vertices, scene.triangles);
-  std::vector<test::CheckedTool> checked_pieces;
-  for (int i = 0; i < piece_count(tool); ++i) checked_pieces.push_back(test::checked_tool(piece_of(tool, i)));
+  const auto checked_pieces = test::checked_pieces(tool);
   Run result;
   result.start = renderer.reset(scene.start);
   if (result.start != Status::converged) return result;

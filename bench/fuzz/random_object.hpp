@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "feeler/core/scalar.hpp"
+#include "scenes/scene.hpp"
 #include "support/random_geometry.hpp"
 
 namespace feeler::fuzz {
@@ -44,11 +45,7 @@ class RandomObject {
     start = rotation * start + translation;
   }
 
-  Points<double> vertices() const {
-    Points<double> points(Eigen::Index(corners_.size()), 3);
-    for (std::size_t i = 0; i < corners_.size(); ++i) points.row(Eigen::Index(i)) = corners_[i].transpose();
-    return points;
-  }
+  Points<double> vertices() const { return scenes::points_from(corners_); }
   /// No two share a vertex.
   Triangles triangles() const {
     Triangles rows(Eigen::Index(corners_.size() / 3), 3);

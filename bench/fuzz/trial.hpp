@@ -2,7 +2,6 @@
 #pragma once
 
 #include <algorithm>
-#include <cmath>
 #include <optional>
 #include <random>
 #include <string>
@@ -13,6 +12,7 @@
 #include "fuzz/random_object.hpp"
 #include "scenes/renderers.hpp"
 #include "support/penetration_checker.hpp"
+#include "support/rendering.hpp"
 
 namespace feeler::fuzz {
 
@@ -48,7 +48,7 @@ class Trial {
     if (below(bits, 5) < 2) placed_.rotation = random_rotation(bits);
     if (below(bits, 7) == 0) placed_.translation = magnitude(bits, -1, 3) * random_direction(bits);
     object_.place(placed_.rotation, placed_.translation);
-    for (int i = 0; i < piece_count(tool_); ++i) pieces_.push_back(test::checked_tool(piece_of(tool_, i)));
+    pieces_ = test::checked_pieces(tool_);
     checked_.emplace(object_.vertices(), object_.triangles());
     allowed_ = 1e-13 + 4e-13 * placed_.translation.norm();  // rounding: of solutions and of coordinates
   }
@@ -96,11 +96,9 @@ class Trial {
 
   void check_tick(const Pose<double>& before, const Pose<double>& haptic, const Tick<double>& tick) {
     const Pose<double>& pose = tick.graphic_pose;
-    if (!pose.is_finite() || std::abs(pose.rotation.norm() - 1) > 1e-12 || !tick.wrench.force.allFinite() || !tick.wrench.torque.allFinite())
-      return complain("an output is not valid");
+    if (!test::is_valid(tick, int(checked_->triangles.rows()))) return complain("an output is not valid");
     if ((tick.status == Status::not_finite) == haptic.is_finite()) return complain("a status about the device is false");
-    const bool has_moved = before.translation != pose.translation || before.rotation.coeffs() != pose.rotation.coeffs();
-    if (tick.path.empty() ? has_moved : tick.path.back().translation != pose.translation) return complain("the tool moved off its path");
+    if (tick.path.empty() && !test::is_same(before, pose)) return complain("the tool moved off its path");
     Pose<double> from = before;
     for (const Pose<double>& to : tick.path) {
       check_leg(from, to, tick.path.size() > 3 ? 3 : 7);

@@ -32,9 +32,7 @@ class Arena {
                  .free_tools = {},
                  .distance = {},
                  .object = {setting_.vertices, setting_.triangles},
-                 .pieces = {}} {
-    for (int i = 0; i < piece_count(tool); ++i)
-      contest_.pieces.push_back(test::checked_tool(piece_of(tool, i)));
+                 .pieces = test::checked_pieces(tool)} {
     contest_.tools.push_back(make_feeler_tool(object_, tool, setting_));
     contest_.free_tools.push_back(make_feeler_tool(far_object_, tool, elsewhere_));
     if (!has_rivals) return;

@@ -45,13 +45,6 @@ scenes::Scene lower(scenes::Scene scene) {
   return scene;
 }
 
-template <RigidTool Tool>
-std::vector<CheckedTool> checked_pieces(const Tool& tool) {
-  std::vector<CheckedTool> pieces;
-  for (int i = 0; i < piece_count(tool); ++i) pieces.push_back(checked_tool(piece_of(tool, i)));
-  return pieces;
-}
-
 /// What must not happen, counted while the device does what it likes.
 template <RigidTool Tool>
 class Watch {

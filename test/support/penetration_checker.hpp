@@ -151,6 +151,14 @@ CheckedTool checked_tool(const Tool& tool) {
   }
 }
 
+/// The convex pieces of anything with functions `piece_count(tool)` and `piece_of(tool, i)` in its namespace.
+template <class Tool>
+std::vector<CheckedTool> checked_pieces(const Tool& tool) {
+  std::vector<CheckedTool> pieces;
+  for (int i = 0; i < piece_count(tool); ++i) pieces.push_back(checked_tool(piece_of(tool, i)));
+  return pieces;
+}
+
 /// A triangle soup and its bounds; triangles may be degenerate.
 struct CheckedObject {
   /// @param object_vertices  n×3 [m]   @param object_triangles  m×3 indices
