@@ -6,6 +6,7 @@
 #include <random>
 
 #include "feeler/tool/box.hpp"
+#include "feeler/tool/point.hpp"
 #include "feeler/tool/segment.hpp"
 #include "scenes/height_field.hpp"
 #include "scenes/terrain.hpp"
@@ -66,6 +67,38 @@ BOOST_AUTO_TEST_CASE(the_first_vertex_hit_is_that_of_brute_force) {
     BOOST_TEST(found.normal_world.dot(end - start) < 0);  // it comes from the side that the normal points to
   }
   BOOST_TEST(hits > 200);
+}
+
+BOOST_AUTO_TEST_CASE(no_vertex_slips_through_between_two_triangles) {
+  constexpr unsigned seed = 3;
+  BOOST_TEST_MESSAGE("seed " << seed);
+  std::mt19937 bits(seed);
+  const auto scene = feeler::scenes::terrain(12);
+  const feeler::TriangleMesh<double> mesh(scene.vertices, scene.triangles);
+  const feeler::Point<double> tool;
+  int edges = 0, missed = 0, missed_at_start = 0;
+  for (int triangle = 0; triangle < mesh.triangle_count(); ++triangle) {
+    for (int k = 0; k < 3; ++k) {
+      if (mesh.topology().neighbour(triangle, k) < 0) continue;
+      ++edges;
+      const Eigen::Matrix3d corners = mesh.corners(triangle);
+      for (int i = 0; i < 20; ++i) {
+        // To rounding the way leads through a point of the edge, and at times straight down.
+        const double share = 0.1 + 0.4 * (1 + unit(bits));
+        const Eigen::Vector3d point = (1 - share) * corners.col(k) + share * corners.col((k + 1) % 3);
+        const double tilt = i % 2 == 0 ? 0 : 0.3;
+        const Eigen::Vector3d way(tilt * unit(bits), tilt * unit(bits), -1);
+        const auto at = [&](double distance) {
+          return Pose<double>{point + distance * way, Eigen::Quaterniond::Identity()};
+        };
+        if (feeler::first_vertex_hit(tool, mesh, at(-0.01), at(0.01)).triangle < 0) ++missed;
+        if (feeler::first_vertex_hit(tool, mesh, at(0), at(0.01)).triangle < 0) ++missed_at_start;
+      }
+    }
+  }
+  BOOST_TEST(edges > 500);
+  BOOST_TEST(missed == 0);
+  BOOST_TEST(missed_at_start == 0);
 }
 
 BOOST_AUTO_TEST_CASE(an_edge_that_lands_on_a_ridge_is_not_seen) {

@@ -40,7 +40,8 @@ FirstContact<Scalar> vertex_on_triangle(int tool_vertex, int triangle, const Vec
 
 /// The paper's simple continuous collision detection: the first triangle that a tool vertex crosses on its straight way between two poses.
 ///
-/// Sees neither edges that cross edges nor corners of the object that enter a face of the tool.
+/// Sees neither edges that cross edges nor corners of the object that enter a face of the tool. A vertex that comes through between two
+/// triangles, to rounding, meets both.
 /// @param from, to  poses of the tool frame
 /// @return a contact with `triangle` −1 if no vertex crosses any
 template <ConvexTool Tool, class MeshScalar>
@@ -49,6 +50,7 @@ FirstContact<typename Tool::Scalar> first_vertex_hit(const Tool& tool, const Tri
                                                      const Pose<typename Tool::Scalar>& to) noexcept {
   using Scalar = typename Tool::Scalar;
   using Vector = Vector3<Scalar>;
+  constexpr Scalar rounding = 16 * std::numeric_limits<Scalar>::epsilon();
   FirstContact<Scalar> first;
   Scalar earliest(1);
   for (int i = 0; i < tool.vertex_count(); ++i) {
@@ -60,13 +62,15 @@ FirstContact<typename Tool::Scalar> first_vertex_hit(const Tool& tool, const Tri
       const Matrix3<Scalar> corners = mesh.corners(triangle).template cast<Scalar>().colwise() - start;
       const Vector normal = (corners.col(1) - corners.col(0)).cross(Vector(corners.col(2) - corners.col(0)));
       const Scalar speed = normal.dot(way), height = normal.dot(corners.col(0));
-      // From the side it starts on to the other; a start in the plane counts for both.
-      if (speed == Scalar(0) || height / speed < Scalar(0) || height > earliest * std::abs(speed) || -height > earliest * std::abs(speed))
+      // From the side it starts on to the other; a start in the plane, to rounding, counts for both.
+      const Scalar extent = corners.cwiseAbs().maxCoeff() + way.cwiseAbs().maxCoeff(), flat = rounding * extent * normal.norm();
+      if (speed == Scalar(0) || std::abs(height) > earliest * std::abs(speed) + flat || (height / speed < Scalar(0) && std::abs(height) > flat))
         return true;
-      const Scalar time = height / speed;
+      const Scalar time = std::clamp(height / speed, Scalar(0), earliest);
+      const Scalar outside = -extent * flat;
       for (int k = 0; k < 3; ++k) {
         const Vector a = corners.col(k) - time * way, b = corners.col((k + 1) % 3) - time * way;
-        if (a.cross(b).dot(normal) < Scalar(0)) return true;
+        if (a.cross(b).dot(normal) < outside) return true;
       }
       if (time < earliest || first.triangle < 0) {
         earliest = time;
