@@ -62,10 +62,11 @@ FirstContact<typename Tool::Scalar> first_vertex_hit(const Tool& tool, const Tri
       const Matrix3<Scalar> corners = mesh.corners(triangle).template cast<Scalar>().colwise() - start;
       const Vector normal = (corners.col(1) - corners.col(0)).cross(Vector(corners.col(2) - corners.col(0)));
       const Scalar speed = normal.dot(way), height = normal.dot(corners.col(0));
+      const Scalar extent = corners.cwiseAbs().maxCoeff() + way.cwiseAbs().maxCoeff();
+      const Scalar flat = rounding * extent * normal.norm();
       // From the side it starts on to the other; a start in the plane, to rounding, counts for both.
-      const Scalar extent = corners.cwiseAbs().maxCoeff() + way.cwiseAbs().maxCoeff(), flat = rounding * extent * normal.norm();
-      if (speed == Scalar(0) || std::abs(height) > earliest * std::abs(speed) + flat || (height / speed < Scalar(0) && std::abs(height) > flat))
-        return true;
+      const Scalar ahead = speed > Scalar(0) ? height : -height;
+      if (speed == Scalar(0) || ahead < -flat || ahead > earliest * std::abs(speed) + flat) return true;
       const Scalar time = std::clamp(height / speed, Scalar(0), earliest);
       const Scalar outside = -extent * flat;
       for (int k = 0; k < 3; ++k) {
