@@ -286,6 +286,31 @@ BOOST_AUTO_TEST_CASE(a_known_triangle_is_examined_whether_or_not_the_traversal_w
   BOOST_TEST(result.time * 0.5 >= 1e-3 - 1e-6);
 }
 
+BOOST_AUTO_TEST_CASE(a_wall_without_clearance_goes_on_beyond_the_triangle_that_the_tool_touches) {
+  // A box slides down a wall at x = 0, from one quadrilateral of it to the next.
+  feeler::Points<double> vertices(6, 3);
+  vertices << 0, -1, 0.1, 0, 1, 0.1, 0, -1, 0, 0, 1, 0, 0, -1, -0.1, 0, 1, -0.1;
+  feeler::Triangles triangles(4, 3);
+  triangles << 0, 2, 1, 1, 2, 3, 2, 4, 3, 3, 4, 5;
+  const TriangleMesh<double> mesh(vertices, triangles);
+  const Box box(Vector(0.01, 0.01, 0.01));
+  feeler::Pose<double> pose;
+  pose.translation = Vector(0.01, 0, 0.01 + 3e-5);  // its bottom is 30 µm above where the next begins
+  const feeler::MovingTool<Box> moving(box, Vector::Zero(), 0.02, pose, {Vector(0, 0, -1e-4), Vector::Zero()});
+  const auto sweep_knowing = [&](bool is_tight) {
+    std::vector<KnownTriangle<double>> known;
+    for (int i = 0; i < 4; ++i) {
+      const Eigen::Matrix3d corners = mesh.corners(i).colwise() - moving.origin();
+      known.push_back({i, {corners, i < 2 ? Vector::UnitX() : Vector::UnitZ(), {}, true}, is_tight && i < 2});
+    }
+    PlaneCache<double> planes;
+    int work = 0;
+    return Sweep<Box>(planes, {}).certify(mesh, moving, std::span<const KnownTriangle<double>>(known), work, 1000);
+  };
+  BOOST_TEST(sweep_knowing(true).is_whole());
+  BOOST_TEST(!sweep_knowing(false).is_whole());  // else this tests nothing
+}
+
 BOOST_AUTO_TEST_CASE(a_tool_that_planes_part_from_everything_collides_nowhere_on_its_way) {
   std::mt19937 bits(8);
   const Soup soup(bits, 150, Vector::Zero());

@@ -37,6 +37,8 @@ struct WorkingPair {
   void note_use() noexcept { idle_ticks = unused_ticks = 0; }
   /// It has done neither for long: others may hold the tool in its place.
   bool is_spare() const noexcept { return unused_ticks > 100; }
+  /// It had no rows of its own when it was last measured.
+  bool is_quiet() const noexcept { return (state == PairState::ghost || state == PairState::repeats) && !keeps_ghost; }
   bool has_plane() const noexcept { return normal.squaredNorm() > Scalar(0); }
   /// @param separation  along the normal at the certified pose [m]
   void set_plane(const Vector3<Scalar>& normal_world, Scalar separation) noexcept {

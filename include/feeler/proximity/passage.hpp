@@ -17,6 +17,7 @@ struct Passage {
   bool is_blocked = false;
   Vector3<Scalar> normal = Vector3<Scalar>::Zero();  ///< world normal of a plane that holds at both ends, or zero
   WitnessFeatures features;                          ///< of the last query, or those given
+  bool turns = false;                                ///< the plane holds where it turns with the tool, as it is at the end
 };
 
 /// A triangle as the tool passes it.
@@ -42,11 +43,18 @@ Scalar highest(const Matrix3<Scalar>& corners, const Vector3<Scalar>& normal) no
   return (normal.transpose() * corners).maxCoeff();
 }
 
-/// Part of [from, to] over which one plane certainly holds, fixed to the world or to the tool, whichever is more; 1 for all of it.
+/// Part of a motion over which a plane certainly holds; 1 for all of it.
+template <class Scalar>
+struct HeldPart {
+  Scalar part;
+  bool turns;  ///< with the tool
+};
+
+/// Part of [from, to] over which one plane certainly holds, fixed to the world or to the tool, whichever is more.
 /// `plane` is given at the frame `at`, which is one end; `required` is subtracted from its slack.
 template <ConvexTool Tool>
 [[gnu::flatten, gnu::noinline]]
-typename Tool::Scalar held_part(const MovingTool<Tool>& moving, const Matrix3<typename Tool::Scalar>& corners,
+HeldPart<typename Tool::Scalar> held_part(const MovingTool<Tool>& moving, const Matrix3<typename Tool::Scalar>& corners,
                                 const HeldPlane<typename Tool::Scalar>& plane,
                                 const MotionFrame<typename Tool::Scalar>& at,
                                 const MotionFrame<typename Tool::Scalar>& other, typename Tool::Scalar required,
@@ -62,11 +70,12 @@ typename Tool::Scalar held_part(const MovingTool<Tool>& moving, const Matrix3<ty
                                 (corners.colwise() - other.shift).colwise().norm().maxCoeff());
   const Scalar sagitta_tool = moving.sagitta_of_object(plane.normal, duration, reach);
   const Scalar part_tool = at_is_start ? first_root(here, there_tool, sagitta_tool) : first_root(there_tool, here, sagitta_tool);
-  if (!(part_tool < Scalar(1))) return Scalar(1);
+  if (!(part_tool < Scalar(1))) return {Scalar(1), true};
   // Fixed to the world.
   const Scalar there = moving.lowest(plane.normal, other) - highest(corners, plane.normal) - required;
   const Scalar sagitta = moving.sagitta(plane.normal, duration);
-  return std::max(part_tool, at_is_start ? first_root(here, there, sagitta) : first_root(there, here, sagitta));
+  const Scalar part_world = at_is_start ? first_root(here, there, sagitta) : first_root(there, here, sagitta);
+  return {std::max(part_tool, part_world), part_world < part_tool};
 }
 
 }  // namespace detail
@@ -138,16 +147,15 @@ Passage<typename Tool::Scalar> pass(const MovingTool<Tool>& moving, const Passed
   const bool is_known = triangle.normal.squaredNorm() > Scalar(0);
   Plane plane{triangle.normal, is_known ? slack_at(triangle.normal, start) : Scalar(0)};
   bool touches = is_known && plane.slack < 2 * clearance.touching;
-  if (is_known && !(detail::held_part(moving, corners, plane, start, end, clearance.required(plane.slack), true) < Scalar(1))) {
+  if (is_known && !(detail::held_part(moving, corners, plane, start, end, clearance.required(plane.slack), true).part < Scalar(1))) {
     return {end.time, false, plane.normal, warm};
   }
   Plane last = query(end, touches);
   if (last.slack > -std::numeric_limits<Scalar>::infinity()) {
     const Scalar known = std::max(slack_at(last.normal, start), is_known ? plane.slack : Scalar(0));
     const Scalar required = clearance.required(std::max(known, Scalar(0)));
-    if (!(detail::held_part(moving, corners, last, end, start, required, false) < Scalar(1))) {
-      return {end.time, false, last.normal, warm};
-    }
+    const auto held = detail::held_part(moving, corners, last, end, start, required, false);
+    if (!(held.part < Scalar(1))) return {end.time, false, last.normal, warm, held.turns};
   }
   if (!is_known) {
     plane = query(start, true);
@@ -164,12 +172,12 @@ Passage<typename Tool::Scalar> pass(const MovingTool<Tool>& moving, const Passed
   bool rolls = false;
   for (int step = 0; step < maximum_steps; ++step) {
     const Scalar whole = end.time - frame.time;
-    Scalar advance = whole * detail::held_part(moving, corners, plane, frame, end, required, true);
+    Scalar advance = whole * detail::held_part(moving, corners, plane, frame, end, required, true).part;
     if (advance < whole && 3 * advance < whole) {
       // A sagitta falls with the square of the duration: over a shorter part the same plane holds for longer.
       const Scalar shorter = std::max(3 * advance, whole / 8);
       const MotionFrame<Scalar> near_end = moving.frame_at(frame.time + shorter);
-      advance = std::max(advance, shorter * detail::held_part(moving, corners, plane, frame, near_end, required, true));
+      advance = std::max(advance, shorter * detail::held_part(moving, corners, plane, frame, near_end, required, true).part);
     }
     if (!(advance < whole)) return {end.time, false, last.normal, warm};
     const Scalar half = (beyond - frame.time) / 2;

@@ -9,6 +9,7 @@
 #include "feeler/proximity/clearance.hpp"
 #include "feeler/proximity/feature_cache.hpp"
 #include "feeler/proximity/motion.hpp"
+#include "feeler/proximity/tool_planes.hpp"
 
 namespace feeler {
 
@@ -42,6 +43,11 @@ struct PlaneOnMotion {
     }
     least = (start < last ? start : last) - slack;
   }
+  /// Whether it parts the tool over the whole motion from what is up to `height` high along it, though it may not be `kept` away.
+  bool parts_closely(Scalar height, const Clearance<Scalar>& clearance) const noexcept {
+    const Scalar slack = least - height;
+    return slack >= -2 * clearance.allowance && slack >= clearance.required(start - height);
+  }
 };
 
 /// World normals of separating planes, from tick to tick, and their limits over the motion at hand; and where queries about triangles that
@@ -63,7 +69,10 @@ class PlaneCache {
     size_ = 0;
     knows_heights_ = false;
     features_.clear();
+    with_tool_.clear();
   }
+  /// Those fixed to the tool.
+  ToolPlanes<Scalar>& with_tool() noexcept { return with_tool_; }
   /// Of the triangles that no plane passed.
   FeatureCache& features() noexcept { return features_; }
 
@@ -87,9 +96,7 @@ class PlaneCache {
 
   /// Whether a plane parts the tool over the whole motion from what is up to `height` high along it, though it may not be `kept` away.
   bool parts_closely(int i, Scalar height, const Clearance<Scalar>& clearance) const noexcept {
-    const Plane& plane = planes_[index(i)];
-    const Scalar slack = plane.least - height;
-    return slack >= -2 * clearance.allowance && slack >= clearance.required(plane.start - height);
+    return planes_[index(i)].parts_closely(height, clearance);
   }
 
   /// Finds the heights at the start of a motion; they are known where the last one ended.
@@ -148,6 +155,7 @@ class PlaneCache {
   Pose<Scalar> end_;            // there
   Vector3<Scalar> shift_;       // to there from where it began [m]
   FeatureCache features_;
+  ToolPlanes<Scalar> with_tool_;
 };
 
 }  // namespace feeler

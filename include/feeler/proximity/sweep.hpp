@@ -26,6 +26,7 @@ template <class Scalar>
 struct KnownTriangle {
   int triangle = -1;
   PassedTriangle<Scalar> state;
+  bool is_tight = false;  ///< the tool touches it, without clearance
 };
 
 /// A triangle that blocks a motion, and the time up to which it certainly does not.
@@ -91,14 +92,19 @@ class Sweep {
                               Scalar until = Scalar(1)) noexcept {
     SweepResult<Scalar> result;
     result.time = until;
+    known_ = known;
     begin(mesh, moving, until);
     for (const KnownTriangle<Scalar>& pair : known) {
-      if (passes(pair.state.corners)) continue;
+      if (passes(pair.state.corners, moving)) continue;
       examine(pair.triangle, pair.state, from_known_, moving, result, work);
       if (work > limit) return give_up(result);
     }
+    std::uint64_t marks = 0;  // a bit for every 64th triangle: most are told from the known by it
+    const auto mark_of = [](int triangle) { return std::uint64_t(1) << (unsigned(triangle) % 64U); };
+    for (const KnownTriangle<Scalar>& pair : known) marks |= mark_of(pair.triangle);
+    const auto is_known = [&](int triangle) { return (marks & mark_of(triangle)) != 0 && is_among(triangle, known); };
     const auto look_at = [&](int triangle, const Matrix3<Scalar>& corners) {
-      if (!is_among(triangle, known)) examine(triangle, {corners, Vector::Zero(), planes_.features().recall_or_guess(triangle), false}, clearance_, moving, result, work);
+      examine(triangle, {corners, Vector::Zero(), planes_.features().recall_or_guess(triangle), false}, clearance_, moving, result, work);
       return true;
     };
     const auto goes_on = [&](int& low) {  // with a shorter motion
@@ -108,7 +114,7 @@ class Sweep {
       set_end(moving, end_.time / 4);
       return true;
     };
-    const bool is_done = traverse(mesh, moving, work, limit - (limit - work) / 8, look_at, goes_on);
+    const bool is_done = traverse(mesh, moving, work, limit - (limit - work) / 8, is_known, look_at, goes_on);
     count_hits();
     return is_done ? result : give_up(result);
   }
@@ -124,9 +130,9 @@ class Sweep {
       const auto closest = gjk(moving.tool(), moving.in_tool(corners, start_), {}, clearance_.touching);
       if (closest.is_touching) return false;
       add_plane(start_.rotation * closest.normal, moving);
-      return passes(corners);
+      return passes(corners, moving);
     };
-    const bool is_done = traverse(mesh, moving, work, limit, is_parted, [](int&) { return false; });
+    const bool is_done = traverse(mesh, moving, work, limit, [](int) { return false; }, is_parted, [](int&) { return false; });
     count_hits();
     return is_done;
   }
@@ -139,16 +145,17 @@ class Sweep {
     start_ = moving.frame_at(Scalar(0));
     coarse_.begin(moving.origin() - mesh.bvh().origin().template cast<Scalar>(), Scalar(mesh.bounds().diagonal().norm()));
     planes_.age();
+    planes_.with_tool().begin(moving);
     planes_.begin(moving, start_);
     set_end(moving, until);
   }
 
-  /// Calls `visit(triangle, its corners relative to the motion's origin)` for every triangle that no cached plane passes, and `goes_on(limit)`
+  /// Calls `visit(triangle, its corners relative to the motion's origin)` for every triangle not `is_known` that no cached plane passes, and `goes_on(limit)`
   /// when the work done exceeds the limit, which it may raise, until one call is false; true when it came to the end.
-  template <class MeshScalar, class Visit, class GoesOn>
+  template <class MeshScalar, class IsKnown, class Visit, class GoesOn>
   [[gnu::flatten, gnu::noinline]]
-  bool traverse(const TriangleMesh<MeshScalar>& mesh, const MovingTool<Tool>& moving, int& work, int limit, const Visit& visit,
-                const GoesOn& goes_on) noexcept {
+  bool traverse(const TriangleMesh<MeshScalar>& mesh, const MovingTool<Tool>& moving, int& work, int limit, const IsKnown& is_known,
+                const Visit& visit, const GoesOn& goes_on) noexcept {
     const auto& bvh = mesh.bvh();
     FixedVector<std::int32_t, Bvh<MeshScalar>::stack_capacity> stack;
     stack.push_back(0);
@@ -169,10 +176,10 @@ class Sweep {
       const auto passed = coarse_.passed(leaf, planes_.size());
       for (std::size_t i = 0; i < passed.size(); ++i) {
         const int triangle = leaf.triangle[i];
-        if (passed[i] || triangle < 0) continue;
+        if (passed[i] || triangle < 0 || is_known(triangle)) continue;
         const Matrix3<Scalar> corners =
             mesh.corners(triangle).template cast<Scalar>().colwise() - moving.origin();
-        if (!passes(corners) && !visit(triangle, corners)) return false;
+        if (!passes(corners, moving) && !visit(triangle, corners)) return false;
       }
     }
     return true;
@@ -210,10 +217,12 @@ class Sweep {
 
   void examine(int triangle, const PassedTriangle<Scalar>& state, const Clearance<Scalar>& clearance, const MovingTool<Tool>& moving,
                SweepResult<Scalar>& result, int& work) noexcept {
+    if (continues_wall(state.corners, moving)) return;
     const Passage<Scalar> passage = pass(moving, state, start_, end_, clearance, work);
     if (!passage.is_blocked) {
       if (passage.normal.squaredNorm() > Scalar(0) && !state.is_exact) {
         add_plane(passage.normal, moving);
+        if (passage.turns) planes_.with_tool().add(end_.rotation.transpose() * passage.normal, moving, start_, end_, clearance_.kept);
         planes_.features().remember(triangle, passage.features);
       }
       return;
@@ -224,11 +233,30 @@ class Sweep {
     if (2 * enough <= end_.time) set_end(moving, enough);
   }
 
+  /// Whether a triangle lies in the plane of a known one that the tool touches without clearance, and slides along: beside it there is a way that
+  /// leads nowhere near it in any other direction.
+  bool continues_wall(const Matrix3<Scalar>& corners, const MovingTool<Tool>& moving) noexcept {
+    const Scalar touching = 20 * clearance_.allowance;
+    for (const KnownTriangle<Scalar>& wall : known_) {
+      if (!wall.is_tight) continue;
+      PlaneOnMotion<Scalar> plane{wall.state.normal};
+      plane.begin(moving, start_);
+      const Scalar height = detail::highest(corners, plane.normal);
+      if (!(std::abs(plane.start - height) < touching)) continue;
+      plane.end(moving, end_);
+      if (!plane.parts_closely(height, clearance_)) continue;
+      add_plane(plane.normal, moving);
+      return true;
+    }
+    return false;
+  }
+
   /// From here on only [0, time] is certified.
   [[gnu::flatten, gnu::noinline]]
   void set_end(const MovingTool<Tool>& moving, Scalar time) noexcept {
     end_ = moving.frame_at(time);
     planes_.end(moving, end_, clearance_.kept);
+    planes_.with_tool().set_motion(moving, start_, end_, clearance_.kept);
     const auto& sides = planes_.sides();
     for (int k = 0; k < 3; ++k) {
       coarse_.set_sides(k, sides[std::size_t(2 * k)].least - clearance_.kept, clearance_.kept - sides[std::size_t(2 * k + 1)].least);
@@ -246,7 +274,12 @@ class Sweep {
     for (int i = 0; i < planes_.size(); ++i) planes_.count_hits(i, coarse_.take_hits(i));
   }
 
-  bool passes(const Matrix3<Scalar>& corners) noexcept {
+  bool passes(const Matrix3<Scalar>& corners, const MovingTool<Tool>& moving) noexcept {
+    const int turning = planes_.with_tool().parting(corners);
+    if (turning >= 0) {
+      if (planes_.with_tool().lend(turning)) add_plane(planes_.with_tool().normal_at_end(turning), moving);
+      return true;
+    }
     for (int i = 0; i < planes_.size(); ++i) {
       const Scalar height = detail::highest(corners, planes_.normal(i));
       if (height <= planes_.limit(i) || planes_.parts_closely(i, height, clearance_)) {
@@ -260,6 +293,7 @@ class Sweep {
   PlaneCache<Scalar>& planes_;
   Clearance<Scalar> from_known_;
   Clearance<Scalar> clearance_;  // from all others
+  std::span<const KnownTriangle<Scalar>> known_;
   Frame start_;
   Frame end_;
   CoarsePlanes<Scalar, PlaneCache<Scalar>::capacity> coarse_;

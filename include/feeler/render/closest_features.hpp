@@ -192,7 +192,8 @@ class ClosestFeaturesFollower {
     bool rests_on_assumption = false, is_taken_back = false;
     Scalar previous(0);
     for (int round = 0; round < rounds && !budget_.ends_motion(tick.work, round); ++round) {
-      const bool is_measured = linearise(scene, pose, round == 0, rounds > 1, !rests_on_assumption, tick);
+      const bool is_measured = !(proposal.is_capped && linearisation_.carry_to(scene, pose, tick)) &&
+                               linearise(scene, pose, round == 0, rounds > 1, !rests_on_assumption, tick);
       solve(scene, pose, proposal.is_capped, tick);
       if (round == 0) proposal.restoration = problem.cost_of_restoration();
       if (round > 0) keep_contacts(scene, pose, proposal.is_capped, tick);

@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "feeler/contact/contact_patch.hpp"
+#include "feeler/contact/covering_planes.hpp"
 #include "feeler/contact/working_set.hpp"
 #include "feeler/core/fixed_vector.hpp"
 #include "feeler/core/scalar.hpp"
@@ -23,7 +24,8 @@ namespace feeler {
 ///
 /// A motion is linearised where it starts, at a certified pose (`start_carried`, `start_measured`), and again where its steps end (`move_to`).
 /// A pair that its last plane parts from the tool by some margins is left out, until a step would take the tool across that plane
-/// (`add_crossed`). Where a motion starts no farther than a step tolerance from where the last one was linearised, its rows are carried
+/// (`add_crossed`). Of a convex tool, a pair that had no rows of its own is not
+/// measured where it lies below the plane of one that has. Where a motion starts no farther than a step tolerance from where the last one was linearised, its rows are carried
 /// there: the features that meet are the same. Of rows that ask the same of a step only the first is in the problem: a pair may
 /// have none of its own.
 /// @cost  noexcept, no allocation; `tick.work` grows by one for each distance query, and for every few planes
@@ -74,17 +76,15 @@ class Linearisation {
       if (!holds_at_start(scene, pair, pair.last_normal, scene.clearance().required(pair.slack), tick)) return false;
       pair.is_ghost = pair.state == PairState::ghost;
     }
-    const bool are_carried = problem_.carry(motion, [&](const Row& row) -> std::optional<Standing> {
-      const int i = pairs_.find(row.piece, row.triangle);
-      if (i < 0 || pairs_[i].state != PairState::has_rows) return {};  // its pair has left, and others may repeat it
-      keep_if_touching(scene, row, pairs_[i]);
-      return standing_of(pairs_[i]);
+    const bool are_carried = carry_rows(motion, tick, [&](const Row& row, const Pair& pair) {
+      if (pair.state != PairState::has_rows) return false;
+      keep_if_touching(scene, row, pair);
+      return true;
     });
     if (!are_carried) return false;
     for (Pair& pair : pairs_) {
       if (pair.state == PairState::left_out) measure_if_near(scene, pair, tick);
     }
-    has_rows_ = true;
     tick.rows = problem_.row_count();
     return true;
   }
@@ -98,6 +98,17 @@ class Linearisation {
     measure_near_pairs(scene, tick);
   }
 
+  /// The rows of the last pose where a capped step ended: what holds the tool there is known, and the next motion measures it. False where
+  /// they cannot be carried.
+  bool carry_to(const Scene& scene, const Pose<Scalar>& pose, Tick<MeshScalar>& tick) noexcept {
+    if (problem_.rests_on_kept()) return false;
+    const Twist<Scalar> motion = scene.idle_turns().motion_between(pose_, pose);
+    put_at(pose);
+    is_at_start_ = false;
+    for (const Pair& pair : pairs_) leaves_out_pairs_ = leaves_out_pairs_ || pair.state == PairState::left_out;
+    return carry_rows(motion, tick, [](const Row&, const Pair&) { return true; });
+  }
+
   /// Adds the rows of pairs left out whose planes a step crosses; false if there are none.
   bool add_crossed(const Scene& scene, const Twist<Scalar>& step, Tick<MeshScalar>& tick) noexcept {
     if (!leaves_out_pairs_) return false;
@@ -106,6 +117,7 @@ class Linearisation {
     bool adds = false;
     for (Pair& pair : pairs_) {
       if (pair.state != PairState::left_out || pair.is_beyond(reach_)) continue;
+      if (is_convex && cover_of(scene, pair)) continue;
       if (slack_along(scene, pair, pair.normal, end, axes, tick) > scene.margin()) continue;
       measure(scene, pair, tick);
       adds = true;
@@ -184,6 +196,7 @@ class Linearisation {
         pair.state = PairState::left_out;  // to be measured again, where all else is carried
       } else if (pair.slack < touching(scene)) {
         meets_touching = true;
+        if (is_convex && pair.state == PairState::repeats) pair.state = PairState::left_out;  // to be measured, whatever covers it
       } else if (pair.state == PairState::left_out) {
         meets_left_out = true;
       }
@@ -202,6 +215,7 @@ class Linearisation {
     pose_ = pose;
     axes_ = pose.rotation.toRotationMatrix();
     leaves_out_pairs_ = false;
+    covers_.clear();
   }
 
   void start_at(const Pose<Scalar>& pose, Scalar reach) noexcept {
@@ -214,11 +228,52 @@ class Linearisation {
     kept_.clear();
   }
 
+  /// Those last that may be covered by others. In a fit all around a tool of several pieces the next step may take any of many pairs, and each is
+  /// measured.
   void measure_near_pairs(const Scene& scene, Tick<MeshScalar>& tick) noexcept {
     problem_.clear();
-    for (Pair& pair : pairs_) measure_if_near(scene, pair, tick);
+    if constexpr (is_convex) {
+      FixedVector<int, Pairs::capacity> quiet;
+      for (int i = 0; i < pairs_.size(); ++i) {
+        if (pairs_[i].is_quiet()) quiet.push_back(i);
+        else measure_if_near(scene, pairs_[i], tick);
+      }
+      for (const int i : quiet) {
+        if (!is_covered(scene, pairs_[i])) measure_if_near(scene, pairs_[i], tick);
+      }
+    } else {
+      for (Pair& pair : pairs_) measure_if_near(scene, pair, tick);
+    }
     has_rows_ = true;
     tick.rows = problem_.row_count();
+  }
+
+  /// Moves all rows by a motion; false where `may_carry(row, its pair)` is, or where a pair has left, and others may repeat it.
+  template <class MayCarry>
+  bool carry_rows(const Twist<Scalar>& motion, Tick<MeshScalar>& tick, const MayCarry& may_carry) noexcept {
+    has_rows_ = problem_.carry(motion, [&](const Row& row) -> std::optional<Standing> {
+      const int i = pairs_.find(row.piece, row.triangle);
+      if (i < 0 || !may_carry(row, pairs_[i])) return {};
+      return standing_of(pairs_[i]);
+    });
+    tick.rows = problem_.row_count();
+    return has_rows_;
+  }
+
+  auto cover_of(const Scene& scene, const Pair& pair) const noexcept {
+    return covers_.above(from_tool(pair), scene.margin() / 1000, touching(scene));
+  }
+
+  /// The corners of a pair, seen from the tool's reference point in world axes.
+  Matrix3<Scalar> from_tool(const Pair& pair) const noexcept { return pair.corners_world.colwise() - pose_.translation; }
+
+  /// Whether the plane of a pair just measured parts this one too: the other's rows hold the tool for both.
+  bool is_covered(const Scene& scene, Pair& pair) noexcept {
+    const auto cover = cover_of(scene, pair);
+    if (!cover) return false;
+    pair.last_normal = cover->normal;
+    if (is_at_start_) pair.set_plane(cover->normal, cover->distance);
+    return true;
   }
 
   void measure_if_near(const Scene& scene, Pair& pair, Tick<MeshScalar>& tick) noexcept {
@@ -275,6 +330,9 @@ class Linearisation {
       pair.state = PairState::has_rows;
       problem_.add(row, standing_of(pair));
       if (is_at_start_) keep_if_touching(scene, row, pair);
+    }
+    if constexpr (is_convex) {
+      if (pair.state == PairState::has_rows && !pair.keeps_ghost && !closest.is_touching) covers_.add(pair.last_normal, from_tool(pair), closest.distance);
     }
   }
 
@@ -339,6 +397,7 @@ class Linearisation {
   Pairs pairs_;
   Problem problem_;
   KeptContacts<Row, Problem::row_capacity> kept_;
+  CoveringPlanes<Scalar> covers_;      // of the pairs measured where the rows are
   FixedVector<Row, 6> stops_;          // of the last step, where it began
   Twist<Scalar> stopped_;              // that step
   PatchRows<Scalar, Row> patch_rows_;  // of the pair at hand

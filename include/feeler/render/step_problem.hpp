@@ -162,7 +162,7 @@ class StepProblem {
       if (round < maximum_rounds && status == QpStatus::infeasible) {
         for (const int k : solution_.conflict) has_relaxed = relax(k, margin) || has_relaxed;
         for (int k = 0; round == 0 && k < problem_.row_count; ++k) {
-          if (standings_[index(k)].is_tight) has_relaxed = relax(k, margin) || has_relaxed;
+          if (standings_[index(k)].is_tight || standings_[index(k)].certified_gap <= no_clearance) has_relaxed = relax(k, margin) || has_relaxed;
         }
       }
       if (has_relaxed) continue;
@@ -210,10 +210,10 @@ class StepProblem {
     Matrix6<Scalar> curvature = Matrix6<Scalar>::Zero();
     for (const auto& active : solution_.active) curvature += active.multiplier * rows_[active.row].curvature();
     const Matrix6<Scalar> lagrangian = metric.hessian(e) - curvature;
-    // Not flatter than a twentieth of the metric: a flatter one makes steps that no linearisation can carry.
+    // Not much flatter than the metric: a flatter one makes steps that no linearisation can carry.
     const auto is_steep_enough = [&] {
       Matrix6<Scalar> rest = problem_.hessian;
-      rest.diagonal() -= base * Scalar(0.05);
+      rest.diagonal() -= base / Scalar(80);
       return factor_.factor(rest);
     };
     problem_.hessian = lagrangian;
