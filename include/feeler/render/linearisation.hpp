@@ -117,7 +117,6 @@ class Linearisation {
     bool adds = false;
     for (Pair& pair : pairs_) {
       if (pair.state != PairState::left_out || pair.is_beyond(reach_)) continue;
-      if (is_convex && cover_of(scene, pair)) continue;
       if (slack_along(scene, pair, pair.normal, end, axes, tick) > scene.margin()) continue;
       measure(scene, pair, tick);
       adds = true;
@@ -260,16 +259,12 @@ class Linearisation {
     return has_rows_;
   }
 
-  auto cover_of(const Scene& scene, const Pair& pair) const noexcept {
-    return covers_.above(from_tool(pair), scene.margin() / 1000, touching(scene));
-  }
-
   /// The corners of a pair, seen from the tool's reference point in world axes.
   Matrix3<Scalar> from_tool(const Pair& pair) const noexcept { return pair.corners_world.colwise() - pose_.translation; }
 
   /// Whether the plane of a pair just measured parts this one too: the other's rows hold the tool for both.
   bool is_covered(const Scene& scene, Pair& pair) noexcept {
-    const auto cover = cover_of(scene, pair);
+    const auto cover = covers_.above(from_tool(pair), scene.margin() / 1000, touching(scene));
     if (!cover) return false;
     pair.last_normal = cover->normal;
     if (is_at_start_) pair.set_plane(cover->normal, cover->distance);
