@@ -17,6 +17,8 @@ struct Clearance {
   Scalar resolution = Scalar(2.5e-7);  ///< advance too small to look for [m]
   Scalar probe = Scalar(1e-4);         ///< length of motion over which all blockers are wanted, not only the first [m]
 
+  /// A separation below it is none at all [m].
+  Scalar none() const noexcept { return 20 * allowance; }
   /// The same, with what is kept from unknown triangles kept from all.
   Clearance from_unknown() const noexcept {
     Clearance clearance = *this;

@@ -55,10 +55,10 @@ struct HeldPart {
 template <ConvexTool Tool>
 [[gnu::flatten, gnu::noinline]]
 HeldPart<typename Tool::Scalar> held_part(const MovingTool<Tool>& moving, const Matrix3<typename Tool::Scalar>& corners,
-                                const HeldPlane<typename Tool::Scalar>& plane,
-                                const MotionFrame<typename Tool::Scalar>& at,
-                                const MotionFrame<typename Tool::Scalar>& other, typename Tool::Scalar required,
-                                bool at_is_start) noexcept {
+                                          const HeldPlane<typename Tool::Scalar>& plane,
+                                          const MotionFrame<typename Tool::Scalar>& at,
+                                          const MotionFrame<typename Tool::Scalar>& other, typename Tool::Scalar required,
+                                          bool at_is_start) noexcept {
   using Scalar = typename Tool::Scalar;
   const Scalar duration = other.time - at.time;
   const Scalar here = plane.slack - required;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -236,13 +237,12 @@ class Sweep {
   /// Whether a triangle lies in the plane of a known one that the tool touches without clearance, and slides along: beside it there is a way that
   /// leads nowhere near it in any other direction.
   bool continues_wall(const Matrix3<Scalar>& corners, const MovingTool<Tool>& moving) noexcept {
-    const Scalar touching = 20 * clearance_.allowance;
     for (const KnownTriangle<Scalar>& wall : known_) {
       if (!wall.is_tight) continue;
       PlaneOnMotion<Scalar> plane{wall.state.normal};
       plane.begin(moving, start_);
       const Scalar height = detail::highest(corners, plane.normal);
-      if (!(std::abs(plane.start - height) < touching)) continue;
+      if (!(std::abs(plane.start - height) < clearance_.none())) continue;
       plane.end(moving, end_);
       if (!plane.parts_closely(height, clearance_)) continue;
       add_plane(plane.normal, moving);

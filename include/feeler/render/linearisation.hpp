@@ -24,8 +24,8 @@ namespace feeler {
 ///
 /// A motion is linearised where it starts, at a certified pose (`start_carried`, `start_measured`), and again where its steps end (`move_to`).
 /// A pair that its last plane parts from the tool by some margins is left out, until a step would take the tool across that plane
-/// (`add_crossed`). Of a convex tool, a pair that had no rows of its own is not
-/// measured where it lies below the plane of one that has. Where a motion starts no farther than a step tolerance from where the last one was linearised, its rows are carried
+/// (`add_crossed`). Of a convex tool, a pair that had no rows of its own is not measured where it lies below the plane of one that has.
+/// Where a motion starts no farther than a step tolerance from where the last one was linearised, its rows are carried
 /// there: the features that meet are the same. Of rows that ask the same of a step only the first is in the problem: a pair may
 /// have none of its own.
 /// @cost  noexcept, no allocation; `tick.work` grows by one for each distance query, and for every few planes

@@ -132,7 +132,7 @@ class MotionCertificate {
       const auto& pair = pairs[i];
       if (pair.piece != piece || pair.is_beyond(far)) continue;
       known[std::size_t(known_count++)] = {
-          pair.triangle, {pair.corners_world.colwise() - moving.origin(), pair.normal, pair.features, true}, pair.slack < 20 * clearance.allowance};
+          pair.triangle, {pair.corners_world.colwise() - moving.origin(), pair.normal, pair.features, true}, pair.slack < clearance.none()};
     }
     return Sweep<Piece>(planes_[std::size_t(piece)], clearance)
         .certify(scene.object(), moving, std::span(known).first(std::size_t(known_count)), work, limit, until);
