@@ -94,22 +94,14 @@ class CoarsePlanes {
   static Group height(const std::array<Group, 3>& normal, const Group& x, const Group& y, const Group& z) noexcept {
     return detail::product(normal[0], x) + detail::product(normal[1], y) + detail::product(normal[2], z);
   }
-  static bool are_all_set(const Masks& masks) noexcept {
-    const auto halves = std::bit_cast<std::array<std::int64_t, 2>>(masks);
-    return (halves[0] & halves[1]) == -1;
-  }
-
   template <class HeightAlong>
   Passed sift(Masks passed, int count, const HeightAlong& height_along) noexcept {
-    constexpr int planes_at_once = 4;
-    for (int first = 0; first < count && !are_all_set(passed); first += planes_at_once) {
-      for (int i = first; i < std::min(first + planes_at_once, count); ++i) {
-        Plane& plane = planes_[std::size_t(i)];
-        for (std::size_t g = 0; g < groups; ++g) {
-          const Mask before = passed[g];
-          passed[g] |= at_most(height_along(plane, g), plane.limit);
-          plane.hits[g] -= passed[g] ^ before;
-        }
+    for (int i = 0; i < count; ++i) {
+      Plane& plane = planes_[std::size_t(i)];
+      for (std::size_t g = 0; g < groups; ++g) {
+        const Mask before = passed[g];
+        passed[g] |= at_most(height_along(plane, g), plane.limit);
+        plane.hits[g] -= passed[g] ^ before;
       }
     }
     return std::bit_cast<Passed>(passed);

@@ -2,11 +2,11 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <span>
-#include <utility>
 
 #include <Eigen/Core>
 
@@ -19,6 +19,7 @@
 #include "feeler/proximity/motion.hpp"
 #include "feeler/proximity/passage.hpp"
 #include "feeler/proximity/plane_cache.hpp"
+#include "feeler/proximity/traversal_order.hpp"
 
 namespace feeler {
 
@@ -71,7 +72,8 @@ typename Tool::Scalar worth_certifying(typename Tool::Scalar blocked, const Clea
 /// (`pass`), which gives a new plane or a blocker. After an early blocker the motion is shortened for the rest, though not to the
 /// blocker itself: the ones just behind it are better known at once. Where the work runs low it is shortened too, and the planes known pass
 /// most of what is left.
-template <ConvexTool Tool>
+/// @tparam Order  in which boxes and triangles are visited: `NearestFirst` or `InBatches`
+template <ConvexTool Tool, class Order = NearestFirst>
 class Sweep {
  public:
   using Scalar = typename Tool::Scalar;
@@ -158,52 +160,40 @@ class Sweep {
   bool traverse(const TriangleMesh<MeshScalar>& mesh, const MovingTool<Tool>& moving, int& work, int limit, const IsKnown& is_known,
                 const Visit& visit, const GoesOn& goes_on) noexcept {
     const auto& bvh = mesh.bvh();
-    FixedVector<std::int32_t, Bvh<MeshScalar>::stack_capacity> stack;
-    stack.push_back(0);
+    Order waiting(moving.motion().linear.template cast<float>());
     int count = 0;
-    while (!stack.empty()) {
-      const std::int32_t entry = stack.back();
-      stack.pop_back();
-      if (++count >= nodes_per_work) {
-        count = 0;
-        ++work;
-      }
+    while (!waiting.empty()) {
+      const std::span<const std::int32_t> next = waiting.take();
+      count += int(next.size());
+      work += count / nodes_per_work;
+      count %= nodes_per_work;
       if (work > limit && !goes_on(limit)) return false;
-      if (!BvhNode::is_leaf(entry)) {
-        push_children(bvh.nodes()[std::size_t(entry)], moving, stack);
+      if (!BvhNode::is_leaf(next.front())) {
+        for (const std::int32_t entry : next) {
+          const BvhNode& node = bvh.nodes()[std::size_t(entry)];
+          waiting.push_children(node, coarse_.passed(node, planes_.size()));
+        }
         continue;
       }
-      const BvhLeaf& leaf = bvh.leaves()[std::size_t(~entry)];
-      const auto passed = coarse_.passed(leaf, planes_.size());
-      for (std::size_t i = 0; i < passed.size(); ++i) {
-        const int triangle = leaf.triangle[i];
-        if (passed[i] || triangle < 0 || is_known(triangle)) continue;
-        const Matrix3<Scalar> corners =
-            mesh.corners(triangle).template cast<Scalar>().colwise() - moving.origin();
+      std::array<std::int32_t, std::size_t(Order::leaves_at_once * BvhLeaf::width + 1)> suspects;
+      std::size_t suspect_count = 0;
+      for (const std::int32_t entry : next) {
+        const BvhLeaf& leaf = bvh.leaves()[std::size_t(~entry)];
+        const auto passed = coarse_.passed(leaf, planes_.size());
+        for (std::size_t i = 0; i < passed.size(); ++i) {
+          suspects[suspect_count] = leaf.triangle[i];
+          suspect_count += std::size_t((passed[i] == 0) & (leaf.triangle[i] >= 0));
+        }
+      }
+      for (std::size_t i = 0; i < suspect_count; ++i) {
+        const int triangle = suspects[i];
+        if (i > 0 && i % BvhLeaf::width == 0 && work > limit && !goes_on(limit)) return false;  // as leaf by leaf
+        if (is_known(triangle)) continue;
+        const Matrix3<Scalar> corners = mesh.corners(triangle).template cast<Scalar>().colwise() - moving.origin();
         if (!passes(corners, moving) && !visit(triangle, corners)) return false;
       }
     }
     return true;
-  }
-
-  /// Those that no plane passes, and on top the one that the tool comes to first: an early blocker saves work on all that lies behind it.
-  template <class Stack>
-  void push_children(const BvhNode& node, const MovingTool<Tool>& moving, Stack& stack) noexcept {
-    const auto passed = coarse_.passed(node, planes_.size());
-    FixedVector<float, BvhNode::width> ahead;  // of those pushed
-    const Vector3<float> motion = moving.motion().linear.template cast<float>();
-    for (std::size_t i = 0; i < passed.size(); ++i) {
-      if (passed[i]) continue;
-      float along = 0.0F;
-      for (std::size_t k = 0; k < 3; ++k) along += motion[int(k)] * (node.lower[k][i] + node.upper[k][i]);
-      stack.push_back(node.child[i]);
-      ahead.push_back(along);
-      for (int at = ahead.size() - 1; at > 0 && ahead[at] > ahead[at - 1]; --at) {
-        const int place = stack.size() - ahead.size() + at;
-        std::swap(ahead[at], ahead[at - 1]);
-        std::swap(stack[place], stack[place - 1]);
-      }
-    }
   }
 
   static SweepResult<Scalar> give_up(SweepResult<Scalar>& result) noexcept {

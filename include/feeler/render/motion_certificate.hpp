@@ -6,6 +6,7 @@
 #include <bitset>
 #include <limits>
 #include <span>
+#include <type_traits>
 
 #include "feeler/contact/working_set.hpp"
 #include "feeler/proximity/plane_cache.hpp"
@@ -71,6 +72,9 @@ class MotionCertificate {
   }
 
  private:
+  /// Pieces of a compound tool are few and fit tightly: there it matters more which triangle is met first.
+  using Order = std::conditional_t<CompoundShape<ToolType>, NearestFirst, InBatches>;
+
   /// What is known of a group of pieces.
   struct Group {
     PlaneCache<Scalar> planes;
@@ -134,7 +138,7 @@ class MotionCertificate {
       known[std::size_t(known_count++)] = {
           pair.triangle, {pair.corners_world.colwise() - moving.origin(), pair.normal, pair.features, true}, pair.slack < clearance.none()};
     }
-    return Sweep<Piece>(planes_[std::size_t(piece)], clearance)
+    return Sweep<Piece, Order>(planes_[std::size_t(piece)], clearance)
         .certify(scene.object(), moving, std::span(known).first(std::size_t(known_count)), work, limit, until);
   }
 
