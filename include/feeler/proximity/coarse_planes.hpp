@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <array>
-#include <bit>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -43,7 +42,7 @@ class CoarsePlanes {
     for (std::size_t k = 0; k < 3; ++k) {
       const auto component = float(normal[int(k)]);
       plane.normal[k] = detail::spread<Group>(component);
-      plane.is_upper[k] = component > 0;
+      plane.farthest[k] = component > 0 ? &BvhNode::upper : &BvhNode::lower;
     }
     plane.limit = detail::spread<Group>(rounded_down(limit + normal.dot(to_boxes_)));
   }
@@ -51,7 +50,7 @@ class CoarsePlanes {
   int take_hits(int i) noexcept {
     Plane& plane = planes_[std::size_t(i)];
     int sum = 0;
-    for (const std::int32_t lane : std::bit_cast<Passed>(plane.hits)) sum += lane;
+    for (const std::int32_t lane : in_lanes(plane.hits)) sum += lane;
     plane.hits = {};
     return sum;
   }
@@ -65,7 +64,7 @@ class CoarsePlanes {
       }
     }
     return sift(beyond, count, [&](const Plane& plane, std::size_t g) {
-      const auto farthest = [&](std::size_t k) { return load(plane.is_upper[k] ? node.upper[k] : node.lower[k], g); };
+      const auto farthest = [&](std::size_t k) { return load((node.*plane.farthest[k])[k], g); };
       return height(plane.normal, farthest(0), farthest(1), farthest(2));
     });
   }
@@ -86,9 +85,16 @@ class CoarsePlanes {
     std::array<Group, 3> normal;
     Group limit;
     Masks hits{};
-    std::array<bool, 3> is_upper;  // the side of a box that is farthest along the normal, by axis
+    std::array<float (BvhNode::*)[3][width], 3> farthest;  // side of a box along the normal, by axis
   };
 
+  /// By way of memory: of a cast g++ 12 makes, where registers are scarce, MMX instructions, which leave the processor unable to compute in
+  /// `long double`.
+  static Passed in_lanes(const Masks& masks) noexcept {
+    alignas(Mask) Passed lanes_of_all;
+    for (std::size_t g = 0; g < groups; ++g) detail::store(&lanes_of_all[g * std::size_t(lanes)], masks[g]);
+    return lanes_of_all;
+  }
   static Group load(const float* from, std::size_t group) noexcept { return detail::load<Group>(from + group * std::size_t(lanes)); }
   static Mask at_most(const Group& a, const Group& b) noexcept { return detail::at_most<float, lanes>(a, b); }
   static Group height(const std::array<Group, 3>& normal, const Group& x, const Group& y, const Group& z) noexcept {
@@ -104,7 +110,7 @@ class CoarsePlanes {
         plane.hits[g] -= passed[g] ^ before;
       }
     }
-    return std::bit_cast<Passed>(passed);
+    return in_lanes(passed);
   }
 
   /// Gives away what the rounding of normals, corners and heights could gain.

@@ -59,7 +59,7 @@ template <class ScalarType>
 class PlaneCache {
  public:
   using Scalar = ScalarType;
-  static constexpr int capacity = 16;
+  static constexpr int capacity = 12;
 
   int size() const noexcept { return size_; }
   const Vector3<Scalar>& normal(int i) const noexcept { return planes_[index(i)].normal; }
