@@ -53,8 +53,8 @@ class NearestFirst {
   FixedVector<std::int32_t, Bvh<float>::stack_capacity> waiting_;
 };
 
-/// Some at a time and in no order, without a branch that depends on a box: a processor that guesses whether a box has passed is wrong so often
-/// that it waits for half of the time.
+/// Some at a time and in no order, without a branch that depends on a box: what is passed is as good as random, and a wrong guess at it makes a
+/// processor wait for longer than the test takes.
 class InBatches {
   static constexpr int batch = 8;
   static constexpr int pushed = batch * BvhNode::width;  // by a batch of nodes, at most
