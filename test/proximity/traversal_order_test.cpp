@@ -5,12 +5,13 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
+#include <iterator>
+#include <limits>
 #include <random>
 #include <tuple>
 #include <vector>
 
-#include "feeler/object/triangle_mesh.hpp"
-#include "support/random_geometry.hpp"
+#include "support/contact_scenes.hpp"
 
 BOOST_AUTO_TEST_SUITE(traversal_order)
 
@@ -21,17 +22,11 @@ using namespace feeler_test;
 
 namespace {
 
-feeler::TriangleMesh<double> soup(std::mt19937& bits, int count) {
-  feeler::Points<double> vertices(3 * count, 3);
-  feeler::Triangles triangles(count, 3);
-  for (int i = 0; i < count; ++i) {
-    const Eigen::Vector3d centre = random_vector(bits);
-    for (int k = 0; k < 3; ++k) {
-      vertices.row(3 * i + k) = (centre + 0.02 * random_vector(bits)).transpose();
-      triangles(i, k) = 3 * i + k;
-    }
-  }
-  return {vertices, triangles};
+/// A floor of 2·4ⁿ triangles.
+feeler::TriangleMesh<double> divided_floor(int n) {
+  Soup floor = floor_object();
+  for (int i = 0; i < n; ++i) floor = floor.divided();
+  return floor.mesh();
 }
 
 /// Nothing has passed, where there is a child.
@@ -45,8 +40,8 @@ Passed none_of(const BvhNode& node) {
 
 BOOST_AUTO_TEST_CASE_TEMPLATE(every_node_and_leaf_that_has_not_passed_is_visited_once, Order, Orders) {
   std::mt19937 bits(1);
-  for (const int count : {1, 3, 40, 5000}) {
-    const auto mesh = soup(bits, count);
+  for (const int n : {0, 1, 3, 6}) {
+    const auto mesh = divided_floor(n);
     const auto& bvh = mesh.bvh();
     std::vector<int> nodes(bvh.nodes().size()), leaves(bvh.leaves().size());
     std::vector<bool> is_expected(leaves.size(), true);
@@ -72,14 +67,13 @@ BOOST_AUTO_TEST_CASE_TEMPLATE(every_node_and_leaf_that_has_not_passed_is_visited
       }
       if (BvhNode::is_leaf(next.front())) BOOST_TEST(int(next.size()) <= Order::leaves_at_once);
     }
-    BOOST_TEST((std::ranges::all_of(nodes, [](int n) { return n == 1; })));
+    BOOST_TEST((std::ranges::all_of(nodes, [](int visits) { return visits == 1; })));
     for (std::size_t i = 0; i < leaves.size(); ++i) BOOST_TEST_REQUIRE(leaves[i] == int(is_expected[i]));
   }
 }
 
 BOOST_AUTO_TEST_CASE(of_the_children_of_a_node_the_one_that_the_motion_comes_to_first_is_next) {
-  std::mt19937 bits(2);
-  const auto mesh = soup(bits, 5000);
+  const auto mesh = divided_floor(6);
   const Eigen::Vector3f motion(0.3F, -1, 0.2F);
   for (const BvhNode& node : mesh.bvh().nodes()) {
     feeler::NearestFirst order(motion);

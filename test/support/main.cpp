@@ -2,10 +2,10 @@
 #define BOOST_TEST_MODULE feeler
 #include <boost/test/unit_test.hpp>
 
-#if defined(__GNUC__) && defined(__x86_64__)
-
 #include <array>
 #include <cstdint>
+
+#if defined(__GNUC__) && defined(__x86_64__)
 
 /// Fails where code took registers of the x87 unit for its own and did not give them back: from then on `long double` comes out as NaN.
 /// A compiler does that where it makes MMX instructions of plain code.

@@ -82,6 +82,17 @@ inline Group spread(const Scalar& value) noexcept {
   }
 }
 
+/// The numbers of a group, one by one.
+///
+/// By way of memory: of a `bit_cast` g++ 12 makes, where registers are scarce, MMX instructions, which leave the processor unable to compute in
+/// `long double`.
+template <class Number, class Group>
+inline std::array<Number, sizeof(Group) / sizeof(Number)> in_lanes(const Group& group) noexcept {
+  alignas(Group) std::array<Number, sizeof(Group) / sizeof(Number)> numbers;
+  store(numbers.data(), group);
+  return numbers;
+}
+
 /// The group with another number in one lane; unchanged where there is no such lane.
 ///
 /// A number that is written alone and read in a group soon after makes processors wait.

@@ -50,7 +50,9 @@ class CoarsePlanes {
   int take_hits(int i) noexcept {
     Plane& plane = planes_[std::size_t(i)];
     int sum = 0;
-    for (const std::int32_t lane : in_lanes(plane.hits)) sum += lane;
+    for (const Mask& hits : plane.hits) {
+      for (const std::int32_t lane : detail::in_lanes<std::int32_t>(hits)) sum += lane;
+    }
     plane.hits = {};
     return sum;
   }
@@ -85,21 +87,15 @@ class CoarsePlanes {
     std::array<Group, 3> normal;
     Group limit;
     Masks hits{};
-    std::array<float (BvhNode::*)[3][width], 3> farthest;  // side of a box along the normal, by axis
+    std::array<float (BvhNode::*)[3][width], 3> farthest;  // which side of a box it is along the normal, by axis
   };
 
-  /// By way of memory: of a cast g++ 12 makes, where registers are scarce, MMX instructions, which leave the processor unable to compute in
-  /// `long double`.
-  static Passed in_lanes(const Masks& masks) noexcept {
-    alignas(Mask) Passed lanes_of_all;
-    for (std::size_t g = 0; g < groups; ++g) detail::store(&lanes_of_all[g * std::size_t(lanes)], masks[g]);
-    return lanes_of_all;
-  }
   static Group load(const float* from, std::size_t group) noexcept { return detail::load<Group>(from + group * std::size_t(lanes)); }
   static Mask at_most(const Group& a, const Group& b) noexcept { return detail::at_most<float, lanes>(a, b); }
   static Group height(const std::array<Group, 3>& normal, const Group& x, const Group& y, const Group& z) noexcept {
     return detail::product(normal[0], x) + detail::product(normal[1], y) + detail::product(normal[2], z);
   }
+
   template <class HeightAlong>
   Passed sift(Masks passed, int count, const HeightAlong& height_along) noexcept {
     for (int i = 0; i < count; ++i) {
@@ -110,7 +106,10 @@ class CoarsePlanes {
         plane.hits[g] -= passed[g] ^ before;
       }
     }
-    return in_lanes(passed);
+    Passed answers;
+    for (std::size_t g = 0; g < groups; ++g)
+      std::ranges::copy(detail::in_lanes<std::int32_t>(passed[g]), answers.begin() + std::ptrdiff_t(g) * lanes);
+    return answers;
   }
 
   /// Gives away what the rounding of normals, corners and heights could gain.

@@ -175,7 +175,7 @@ class Sweep {
         }
         continue;
       }
-      std::array<std::int32_t, std::size_t(Order::leaves_at_once * BvhLeaf::width + 1)> suspects;
+      std::array<std::int32_t, std::size_t(Order::leaves_at_once * BvhLeaf::width + 1)> suspects;  // one more is written, and not counted
       std::size_t suspect_count = 0;
       for (const std::int32_t entry : next) {
         const BvhLeaf& leaf = bvh.leaves()[std::size_t(~entry)];

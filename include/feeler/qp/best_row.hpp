@@ -64,7 +64,7 @@ class BestRow<Scalar, lanes> {
     number_ += Bits(lanes);
   }
   int row() const noexcept {
-    auto scores = std::bit_cast<std::array<Scalar, std::size_t(lanes)>>(best_);
+    auto scores = in_lanes<Scalar>(best_);
     for (std::size_t half = scores.size() / 2; half > 0; half /= 2) {
       for (std::size_t i = 0; i < half; ++i) scores[i] = greater(scores[i], scores[i + half]);
     }
@@ -72,7 +72,7 @@ class BestRow<Scalar, lanes> {
   }
   bool has_any() const noexcept {
     Bits any = 0;
-    for (const Bits bits : std::bit_cast<std::array<Bits, std::size_t(lanes)>>(any_)) any |= bits;
+    for (const Bits bits : in_lanes<Bits>(any_)) any |= bits;
     return any != 0;
   }
 

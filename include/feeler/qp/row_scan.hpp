@@ -3,7 +3,6 @@
 #pragma once
 
 #include <array>
-#include <bit>
 #include <cstddef>
 #include <limits>
 
@@ -222,8 +221,7 @@ class RowScan {
       return is_above;
     } else {
       LaneBits<Scalar> any = 0;
-      using Bits = std::array<LaneBits<Scalar>, std::size_t(lanes)>;
-      for (const LaneBits<Scalar> bits : std::bit_cast<Bits>(is_above)) any |= bits;
+      for (const LaneBits<Scalar> bits : in_lanes<LaneBits<Scalar>>(is_above)) any |= bits;
       return any != 0;
     }
   }
