@@ -2,6 +2,7 @@
 
 #include <boost/test/unit_test.hpp>
 
+#include <memory>
 #include <random>
 #include <type_traits>
 #include <vector>
@@ -12,20 +13,21 @@ using feeler::FixedVector;
 
 namespace {
 
-/// Counts how often one is assigned to.
-struct Assigned {
-  Assigned() = default;
-  explicit Assigned(int v) : value(v) {}
-  Assigned(const Assigned&) = default;
-  Assigned& operator=(const Assigned& other) {
+/// Counts how often one is made, and how often one is written from another.
+struct Counted {
+  Counted() { ++made; }
+  explicit Counted(int v) : value(v) { ++made; }
+  Counted(const Counted& other) : value(other.value) { ++copied; }
+  Counted& operator=(const Counted& other) {
     value = other.value;
-    ++count;
+    ++copied;
     return *this;
   }
   int value = 0;
-  static int count;
+  static int made, copied;
 };
-int Assigned::count = 0;
+int Counted::made = 0;
+int Counted::copied = 0;
 
 template <class List>
 bool holds(const List& list, const std::vector<int>& expected) {
@@ -66,19 +68,23 @@ BOOST_AUTO_TEST_CASE(swap_remove_puts_the_last_element_in_the_gap) {
   BOOST_TEST(list.empty());
 }
 
-BOOST_AUTO_TEST_CASE(a_copy_has_the_elements_in_use_and_touches_no_others) {
-  FixedVector<Assigned, 100> list;
-  for (int i = 0; i < 4; ++i) list.push_back(Assigned(i));
-  Assigned::count = 0;
-  FixedVector<Assigned, 100> copy(list);
-  BOOST_TEST(Assigned::count == 4);
+BOOST_AUTO_TEST_CASE(a_list_makes_no_element_and_a_copy_those_in_use) {
+  Counted::made = 0;
+  FixedVector<Counted, 100> list;
+  BOOST_TEST(Counted::made == 0);
+  for (int i = 0; i < 4; ++i) list.push_back(Counted(i));
+  BOOST_TEST(Counted::made == 4);
+  Counted::copied = 0;
+  FixedVector<Counted, 100> copy(list);
+  BOOST_TEST(Counted::copied == 4);
+  BOOST_TEST(Counted::made == 4);
   BOOST_TEST(copy.size() == 4);
   for (int i = 0; i < 4; ++i) BOOST_TEST(copy[i].value == i);
   copy[0].value = 7;
   BOOST_TEST(list[0].value == 0);
 
-  FixedVector<Assigned, 100> shorter;
-  shorter.push_back(Assigned(5));
+  FixedVector<Counted, 100> shorter;
+  shorter.push_back(Counted(5));
   list = shorter;
   BOOST_TEST(list.size() == 1);
   BOOST_TEST(list[0].value == 5);
@@ -86,6 +92,19 @@ BOOST_AUTO_TEST_CASE(a_copy_has_the_elements_in_use_and_touches_no_others) {
   list = same;
   BOOST_TEST(list.size() == 1);
   BOOST_TEST(list[0].value == 5);
+}
+
+BOOST_AUTO_TEST_CASE(elements_that_must_be_destroyed_are) {
+  const auto shared = std::make_shared<int>(3);
+  {
+    FixedVector<std::shared_ptr<int>, 4> list;
+    list.push_back(shared);
+    list.push_back(shared);
+    const FixedVector<std::shared_ptr<int>, 4> copy(list);
+    BOOST_TEST(shared.use_count() == 5);
+    BOOST_TEST(*copy[1] == 3);
+  }
+  BOOST_TEST(shared.use_count() == 1);
 }
 
 BOOST_AUTO_TEST_CASE(any_sequence_of_calls_does_what_it_does_to_a_standard_vector) {

@@ -4,20 +4,43 @@
 #include <array>
 #include <cassert>
 #include <cstddef>
+#include <memory>
+#include <type_traits>
 
 namespace feeler {
 
-/// A list of at most `Capacity` elements, stored in place; copying copies the elements in use only.
+namespace detail {
+
+/// Room for elements, none of which is made before it is in use.
+template <class T, int Capacity>
+union UnmadeElements {
+  UnmadeElements() noexcept {}
+  std::array<T, std::size_t(Capacity)> elements;
+};
+
+/// Those that must be destroyed are all made at once.
+template <class T, int Capacity>
+struct MadeElements {
+  std::array<T, std::size_t(Capacity)> elements{};
+};
+
+}  // namespace detail
+
+/// A list of at most `Capacity` elements, stored in place. A list costs what is in it: making one makes no element, and copying copies the elements in use
+/// only.
 template <class T, int Capacity>
 class FixedVector {
+  static constexpr bool is_made_in_use = std::is_trivially_destructible_v<T>;
+
  public:
   using value_type = T;
 
   FixedVector() noexcept = default;
   FixedVector(const FixedVector& other) noexcept { *this = other; }
   FixedVector& operator=(const FixedVector& other) noexcept {
+    if (this == &other) return *this;
     size_ = other.size_;
-    for (int i = 0; i < size_; ++i) elements_[std::size_t(i)] = other.elements_[std::size_t(i)];
+    for (int i = 0; i < size_; ++i) put(i, other[i]);
     return *this;
   }
 
@@ -30,29 +53,37 @@ class FixedVector {
   /// Appends; returns false, and drops the element, when the list is full.
   bool push_back(const T& element) noexcept {
     if (full()) return false;
-    elements_[std::size_t(size_++)] = element;
+    put(size_++, element);
     return true;
   }
   /// Removes element `i` in constant time; the last element takes its place.
   void swap_remove(int i) noexcept {
     assert(i >= 0 && i < size_);
     --size_;
-    if (i != size_) elements_[std::size_t(i)] = elements_[std::size_t(size_)];
+    if (i != size_) (*this)[i] = (*this)[size_];
   }
   void pop_back() noexcept { --size_; }
 
-  T& operator[](int i) noexcept { return elements_[std::size_t(i)]; }
-  const T& operator[](int i) const noexcept { return elements_[std::size_t(i)]; }
-  T& back() noexcept { return elements_[std::size_t(size_ - 1)]; }
-  const T& back() const noexcept { return elements_[std::size_t(size_ - 1)]; }
-  T* begin() noexcept { return elements_.data(); }
-  T* end() noexcept { return elements_.data() + size_; }
-  const T* begin() const noexcept { return elements_.data(); }
-  const T* end() const noexcept { return elements_.data() + size_; }
+  T& operator[](int i) noexcept { return store_.elements[std::size_t(i)]; }
+  const T& operator[](int i) const noexcept { return store_.elements[std::size_t(i)]; }
+  T& back() noexcept { return (*this)[size_ - 1]; }
+  const T& back() const noexcept { return (*this)[size_ - 1]; }
+  T* begin() noexcept { return store_.elements.data(); }
+  T* end() noexcept { return begin() + size_; }
+  const T* begin() const noexcept { return store_.elements.data(); }
+  const T* end() const noexcept { return begin() + size_; }
 
  private:
+  void put(int i, const T& element) noexcept {
+    if constexpr (is_made_in_use) {
+      std::construct_at(&store_.elements[std::size_t(i)], element);
+    } else {
+      store_.elements[std::size_t(i)] = element;
+    }
+  }
+
   int size_ = 0;
-  std::array<T, std::size_t(Capacity)> elements_{};
+  std::conditional_t<is_made_in_use, detail::UnmadeElements<T, Capacity>, detail::MadeElements<T, Capacity>> store_;
 };
 
 }  // namespace feeler

@@ -9,6 +9,7 @@
 #include <type_traits>
 
 #include "feeler/contact/working_set.hpp"
+#include "feeler/core/fixed_vector.hpp"
 #include "feeler/proximity/plane_cache.hpp"
 #include "feeler/proximity/sweep.hpp"
 #include "feeler/render/rendered_scene.hpp"
@@ -130,16 +131,14 @@ class MotionCertificate {
       }
       clearance.kept_from_unknown = clearance.kept;
     }
-    std::array<KnownTriangle<Scalar>, std::size_t(pair_capacity)> known;
-    int known_count = 0;
+    FixedVector<KnownTriangle<Scalar>, pair_capacity> known;
     for (int i = 0; i < pairs.size(); ++i) {
       const auto& pair = pairs[i];
       if (pair.piece != piece || pair.is_beyond(far)) continue;
-      known[std::size_t(known_count++)] = {
-          pair.triangle, {pair.corners_world.colwise() - moving.origin(), pair.normal, pair.features, true}, pair.slack < clearance.none()};
+      known.push_back({pair.triangle, {pair.corners_world.colwise() - moving.origin(), pair.normal, pair.features, true}, pair.slack < clearance.none()});
     }
     return Sweep<Piece, Order>(planes_[std::size_t(piece)], clearance)
-        .certify(scene.object(), moving, std::span(known).first(std::size_t(known_count)), work, limit, until);
+        .certify(scene.object(), moving, {known.begin(), std::size_t(known.size())}, work, limit, until);
   }
 
   std::array<PlaneCache<Scalar>, std::size_t(maximum_pieces<ToolType>)> planes_;
