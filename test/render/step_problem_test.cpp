@@ -16,7 +16,7 @@ namespace {
 /// A contact with a floor z = 0, and any curvature.
 struct BentRow : ContactRow<double> {
   Matrix6<double> bend = Matrix6<double>::Zero();
-  Matrix6<double> curvature() const noexcept { return bend; }
+  void add_curvature(double multiple, Matrix6<double>& lower) const noexcept { lower += multiple * bend; }
 };
 
 using Problem = StepProblem<DualActiveSet<double>, 8, BentRow>;

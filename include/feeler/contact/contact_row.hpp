@@ -1,6 +1,7 @@
 // One contact as the optimisation sees it: separation of two features, its gradient and its curvature.
 #pragma once
 
+#include <algorithm>
 #include <limits>
 
 #include <Eigen/Geometry>
@@ -93,41 +94,54 @@ struct ContactRow {
     return j;
   }
 
-  /// A(n, r) = ½(nrᵀ + rnᵀ) − (n·r)I with wᵀA w = n·w×(w×r): what a turn adds to the height of the arm's end.
-  Matrix3<Scalar> chord() const noexcept {
-    const Matrix3<Scalar> outer = normal * arm.transpose() / 2;
-    return outer + outer.transpose() - normal.dot(arm) * Matrix3<Scalar>::Identity();
+  /// C: second derivative of the separation by the step.
+  Matrix6<Scalar> curvature() const noexcept {
+    Matrix6<Scalar> lower = Matrix6<Scalar>::Zero();
+    add_curvature(Scalar(1), lower);
+    return lower.template selfadjointView<Eigen::Lower>();
   }
 
-  /// C: second derivative of the separation by the step.
+  /// Adds a multiple of C to the lower triangle of a matrix, number by number: whole blocks would wait for each other in memory.
   ///
   /// A vertex on a face moves by Exp(w)r, so its part is A(n, r). A face on a vertex z sees it
   /// move by Exp(−w)(z − dp). Where edges u (object) and v (tool) cross, n ∝ v × u turns by δn = B w, and δn·δx is added.
-  Matrix6<Scalar> curvature() const noexcept {
-    Matrix6<Scalar> c = Matrix6<Scalar>::Zero();
-    auto linear_angular = c.template topRightCorner<3, 3>();
-    auto angular = c.template bottomRightCorner<3, 3>();
+  void add_curvature(const Scalar& multiple, Matrix6<Scalar>& lower) const noexcept {
     switch (kind) {
-      case FeaturePair::vertex_face: angular = chord(); break;
+      case FeaturePair::vertex_face: add_chord(multiple, lower); break;
       case FeaturePair::face_vertex:
-        angular = -chord();
-        linear_angular = -cross_matrix(normal);
+        add_chord(-multiple, lower);
+        for (int j = 0; j < 3; ++j) {
+          const int k = (j + 1) % 3, i = (j + 2) % 3;  // [n]×
+          lower(3 + k, j) += multiple * normal[i];
+          lower(3 + i, j) -= multiple * normal[k];
+        }
         break;
       case FeaturePair::edge_edge: {
-        const Vector3<Scalar> cross = tool_edge.cross(object_edge);
-        const Scalar oriented = cross.dot(normal);  // signed sine of the angle between the edges
-        const Matrix3<Scalar> turn =
-            (tool_edge * object_edge.transpose() -
-             object_edge.dot(tool_edge) * (Matrix3<Scalar>::Identity() - normal * normal.transpose())) /
-            oriented;
-        const Matrix3<Scalar> carried = turn.transpose() * cross_matrix(arm);
-        linear_angular = turn;
-        angular = chord() - carried - carried.transpose();
+        add_chord(multiple, lower);
+        const Scalar cosine = object_edge.dot(tool_edge);
+        const Scalar scale = multiple / tool_edge.cross(object_edge).dot(normal);  // by the signed sine of the angle between the edges
+        for (int j = 0; j < 3; ++j) {
+          const Vector3<Scalar> turn = scale * (object_edge[j] * tool_edge - cosine * (Vector3<Scalar>::Unit(j) - normal[j] * normal));  // of B
+          const Vector3<Scalar> carried = turn.cross(arm);
+          for (int i = 0; i < 3; ++i) {
+            lower(3 + j, i) += turn[i];
+            lower(3 + std::max(i, j), 3 + std::min(i, j)) -= carried[i];
+          }
+          lower(3 + j, 3 + j) -= carried[j];
+        }
         break;
       }
     }
-    c.template bottomLeftCorner<3, 3>() = linear_angular.transpose();
-    return c;
+  }
+
+  /// Adds a multiple of A(n, r) = ½(nrᵀ + rnᵀ) − (n·r)I with wᵀA w = n·w×(w×r), what a turn adds to the height of the arm's end, for the turns.
+  void add_chord(const Scalar& multiple, Matrix6<Scalar>& lower) const noexcept {
+    const Vector3<Scalar> half = multiple * normal / 2;
+    const Scalar height = 2 * half.dot(arm);
+    for (int j = 0; j < 3; ++j) {
+      lower(3 + j, 3 + j) -= height;
+      for (int i = j; i < 3; ++i) lower(3 + i, 3 + j) += half[i] * arm[j] + half[j] * arm[i];
+    }
   }
 };
 

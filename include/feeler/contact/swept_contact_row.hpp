@@ -42,13 +42,18 @@ struct SweptContactRow : ContactRow<ScalarType> {
     return row;
   }
 
-  /// C: second derivative of the separation by the step.
+  /// As `ContactRow::curvature` and `add_curvature`.
   ///
   /// The distance is the least of |x + a v − y − b u| over a and b, x − y = d n, with x moved by dp + w×x + ½ w×(w×x). With J = [I, −[x]×],
   /// P = I − nnᵀ and Φ the mixed derivatives by the step and (a, b), second derivatives of such a minimum are
   /// C = A(n, x) + JᵀPJ/d − Φ H⁻¹ Φᵀ, where Φ = [Jᵀv/d + (0, v×n), −Jᵀu/d] and H = [1, −u·v; −u·v, 1]/d; for a point its part is left out.
   Matrix6<Scalar> curvature() const noexcept {
-    if (!(core_distance > Scalar(0))) return ContactRow<Scalar>::curvature();
+    Matrix6<Scalar> lower = Matrix6<Scalar>::Zero();
+    add_curvature(Scalar(1), lower);
+    return lower.template selfadjointView<Eigen::Lower>();
+  }
+  void add_curvature(const Scalar& multiple, Matrix6<Scalar>& lower) const noexcept {
+    if (!(core_distance > Scalar(0))) return ContactRow<Scalar>::add_curvature(multiple, lower);
     using Column = Vector6<Scalar>;
     const Vector3<Scalar>&n = this->normal, &x = this->arm, &u = this->object_edge, &v = this->tool_edge;
     // J as seen by a direction: Jᵀe = (e, x × e).
@@ -57,28 +62,29 @@ struct SweptContactRow : ContactRow<ScalarType> {
       column << e, x.cross(e);
       return column;
     };
-    Matrix6<Scalar> c = Matrix6<Scalar>::Zero();
-    for (int k = 0; k < 3; ++k) {
-      const Column column = moved_along(Vector3<Scalar>::Unit(k));
-      c += column * column.transpose();
-    }
-    const Column along_normal = moved_along(n);
-    c = (c - along_normal * along_normal.transpose()) / core_distance;
-    c.template bottomRightCorner<3, 3>() += this->chord();
+    const auto add_square = [&lower](const Scalar& scale, const Column& column) {
+      for (int j = 0; j < 6; ++j) {
+        const Scalar scaled = scale * column[j];
+        for (int i = j; i < 6; ++i) lower(i, j) += scaled * column[i];
+      }
+    };
+    const Scalar share = multiple / core_distance;
+    this->add_chord(multiple, lower);
+    for (int k = 0; k < 3; ++k) add_square(share, moved_along(Vector3<Scalar>::Unit(k)));
+    add_square(-share, moved_along(n));
     const bool has_tool_edge = !v.isZero(Scalar(0)), has_object_edge = !u.isZero(Scalar(0));
     Column by_tool = moved_along(v);  // Φ and H times d
     by_tool.template tail<3>() += core_distance * v.cross(n);
     const Column by_object = -moved_along(u);
     if (has_tool_edge && has_object_edge) {
       const Scalar cosine = u.dot(v);
-      const Column mixed = by_tool + cosine * by_object;
-      c -= (by_object * by_object.transpose() + mixed * mixed.transpose() / (Scalar(1) - cosine * cosine)) / core_distance;
+      add_square(-share, by_object);
+      add_square(-share / (Scalar(1) - cosine * cosine), by_tool + cosine * by_object);
     } else if (has_tool_edge) {
-      c -= by_tool * by_tool.transpose() / core_distance;
+      add_square(-share, by_tool);
     } else if (has_object_edge) {
-      c -= by_object * by_object.transpose() / core_distance;
+      add_square(-share, by_object);
     }
-    return c;
   }
 };
 

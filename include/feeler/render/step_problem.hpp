@@ -205,20 +205,16 @@ class StepProblem {
   /// has negative curvature along the rows too, the tool is about to slip off: there part of the metric takes its place.
   [[gnu::flatten, gnu::noinline]]
   void set_lagrangian_hessian(const Metric<Scalar>& metric, const Twist<Scalar>& e) noexcept {
-    const Vector6<Scalar> base = metric.hessian({}).diagonal();
+    Vector6<Scalar> base;
+    base << metric.translational, metric.rotational;
     // Summed before it is subtracted: of contacts between faces much cancels, and does so to the last bit.
     Matrix6<Scalar> curvature = Matrix6<Scalar>::Zero();
-    for (const auto& active : solution_.active) curvature += active.multiplier * rows_[active.row].curvature();
-    const Matrix6<Scalar> lagrangian = metric.hessian(e) - curvature;
+    for (const auto& active : solution_.active) rows_[active.row].add_curvature(active.multiplier, curvature);
+    const Matrix6<Scalar> hessian = metric.hessian(e);
     // Not much flatter than the metric: a flatter one makes steps that no linearisation can carry.
-    const auto is_steep_enough = [&] {
-      Matrix6<Scalar> rest = problem_.hessian;
-      rest.diagonal() -= base / Scalar(80);
-      return factor_.factor(rest);
-    };
-    problem_.hessian = lagrangian;
+    const Vector6<Scalar> floor = base / Scalar(80);
     is_newton_ = true;
-    if (is_steep_enough()) return;
+    if (set_hessian([&](int i, int j) { return hessian(i, j) - curvature(i, j); }, floor)) return;
 
     Matrix6<Scalar> across = Matrix6<Scalar>::Zero();
     Vector6<Scalar> pull = Vector6<Scalar>::Zero();
@@ -227,16 +223,28 @@ class StepProblem {
       across += row * row.transpose();
       pull += problem_.bounds[index(active.row)] * row;
     }
-    for (const auto& [weight, share] : regularisations) {
-      problem_.hessian = share * lagrangian + weight * across;
-      problem_.hessian.diagonal() += (Scalar(1) - share) * base;
-      if (!is_steep_enough()) continue;
-      problem_.gradient -= weight * pull;
-      is_newton_ = share == Scalar(1);
+    for (const Regularisation& regular : regularisations) {
+      const auto entry = [&](int i, int j) {
+        const Scalar sum = regular.share * (hessian(i, j) - curvature(i, j)) + regular.weight * across(i, j);
+        return i == j ? sum + (Scalar(1) - regular.share) * base[i] : sum;
+      };
+      if (!set_hessian(entry, floor)) continue;
+      problem_.gradient -= regular.weight * pull;
+      is_newton_ = regular.share == Scalar(1);
       return;
     }
     problem_.hessian = base.asDiagonal();
     is_newton_ = false;
+  }
+
+  /// Sets the Hessian to `entry(i, j)`, i ≥ j, number by number; false where it is not positive definite less a diagonal, `floor`.
+  template <class Entry>
+  bool set_hessian(const Entry& entry, const Vector6<Scalar>& floor) noexcept {
+    auto& h = problem_.hessian;
+    for (int j = 0; j < 6; ++j) {
+      for (int i = j; i < 6; ++i) h(i, j) = h(j, i) = entry(i, j);
+    }
+    return factor_.factor(h, floor);
   }
 
   /// Stiffness across the active rows, and share of the Lagrangian in what is left to the metric; the first that will do is taken, where the
