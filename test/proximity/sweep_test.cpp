@@ -69,6 +69,7 @@ void check_soup(unsigned seed, const Soup& soup, const Vector& offset, double ro
       6;  // motions one after the other, the next from where the last was certified, as the renderer does
   for (int i = 0, link = 0; i < count; ++i, link = (link + 1) % chain) {
     if (link == 0) {
+      planes.with_tool().clear();  // of another tool
       do {
         tool = Box(
             Vector(magnitude(bits, -2.3, -1.3), magnitude(bits, -2.3, -1.3), magnitude(bits, -2.3, -1.3)));

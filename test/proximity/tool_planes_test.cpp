@@ -83,10 +83,10 @@ BOOST_AUTO_TEST_CASE(planes_that_part_nothing_are_forgotten_and_each_is_lent_onc
   planes.add(Vector::UnitZ(), moving, start, end, 1e-7);
   BOOST_TEST(planes.size() == 1);
   BOOST_TEST(!planes.lend(0));  // it is new
-  planes.begin(moving);
+  planes.age();
   BOOST_TEST(planes.lend(0));
   BOOST_TEST(!planes.lend(0));
-  for (int i = 0; i < 3; ++i) planes.begin(moving);
+  for (int i = 0; i < 3; ++i) planes.age();
   BOOST_TEST(planes.size() == 0);
 }
 

@@ -56,8 +56,8 @@ struct ContactRow {
   }
 
   /// The row where a motion ends, exactly, if the same features still meet there.
-  ContactRow carried(const Twist<Scalar>& motion) const noexcept {
-    const Matrix3<Scalar> turn = exp_rotation(motion.angular).toRotationMatrix();
+  ContactRow carried(const Displacement<Scalar>& motion) const noexcept {
+    const Matrix3<Scalar>& turn = motion.turn;
     ContactRow row = *this;
     switch (kind) {
       case FeaturePair::vertex_face:

@@ -21,15 +21,14 @@ struct SweptContactRow : ContactRow<ScalarType> {
   Scalar core_distance = Scalar(0);  ///< between two points, a point and a line, or two lines that are not parallel [m]
 
   /// The row where a motion ends, exactly, if the same features still meet there.
-  SweptContactRow carried(const Twist<Scalar>& motion) const noexcept {
+  SweptContactRow carried(const Displacement<Scalar>& motion) const noexcept {
     SweptContactRow row = *this;
     if (!(core_distance > Scalar(0))) {
       static_cast<ContactRow<Scalar>&>(row) = ContactRow<Scalar>::carried(motion);
       return row;
     }
-    const Matrix3<Scalar> turn = exp_rotation(motion.angular).toRotationMatrix();
-    row.arm = turn * this->arm;
-    row.tool_edge = turn * this->tool_edge;
+    row.arm = motion.turn * this->arm;
+    row.tool_edge = motion.turn * this->tool_edge;
     Vector3<Scalar> between = core_distance * this->normal + motion.linear + row.arm - this->arm;
     const Vector3<Scalar>&u = row.object_edge, &v = row.tool_edge;
     const Vector3<Scalar> slide = row.nearest_on_line(between, v, u) * v;

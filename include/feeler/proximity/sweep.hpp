@@ -148,7 +148,7 @@ class Sweep {
     start_ = moving.frame_at(Scalar(0));
     coarse_.begin(moving.origin() - mesh.bvh().origin().template cast<Scalar>(), Scalar(mesh.bounds().diagonal().norm()));
     planes_.age();
-    planes_.with_tool().begin(moving);
+    planes_.with_tool().age();
     planes_.begin(moving, start_);
     set_end(moving, until);
   }

@@ -15,7 +15,8 @@ namespace feeler {
 ///
 /// In the axes of the tool a plane stands and a point y of the object moves along an arc, Z(t) = R(t)ᵀ(y − c(t)). The tool reaches only points
 /// that are within its radius ρ of its reference point c at some time, so |Z| ≤ ρ + |dp| all the while, which bounds how far the height of such a
-/// point strays from its chord (`MovingTool::sagitta_of_object`). What is below the plane by that much at both ends stays below it.
+/// point strays from its chord (`MovingTool::sagitta_of_object`). What is below the plane by that much at both ends stays below it. How high the tool is
+/// above such a plane never changes: they belong to one tool.
 template <class ScalarType>
 class ToolPlanes {
  public:
@@ -39,8 +40,8 @@ class ToolPlanes {
     const int place = size_ < capacity ? size_++ : capacity - 1;
     Plane& plane = planes_[index(place)];
     plane.normal = normal;
+    plane.height = moving.lowest_in_tool(normal) - swept_radius(moving.tool());
     plane.hits = 2;
-    plane.begin(moving);
     plane.is_lent = true;  // a sweep has it from where this one comes from
     plane.set_motion(moving, start, end, kept);
   }
@@ -59,9 +60,8 @@ class ToolPlanes {
   /// as the tool does not turn far.
   bool lend(int i) noexcept { return !std::exchange(planes_[index(i)].is_lent, true); }
   const Vector3<Scalar>& normal_at_end(int i) const noexcept { return planes_[index(i)].at_end.normal; }
-  /// Before a motion: finds where the planes touch the tool, halves the hits and brings the most useful ones to the front.
-  template <class Moving>
-  void begin(const Moving& moving) noexcept {
+  /// Before a motion: halves the hits and brings the most useful planes to the front.
+  void age() noexcept {
     for (int i = 0; i < size_; ++i) {
       planes_[index(i)].hits /= 2;
       planes_[index(i)].is_lent = false;
@@ -70,7 +70,6 @@ class ToolPlanes {
       for (int k = i; k > 0 && planes_[index(k)].hits > planes_[index(k - 1)].hits; --k) std::swap(planes_[index(k)], planes_[index(k - 1)]);
     }
     while (size_ > 0 && planes_[index(size_ - 1)].hits == 0) --size_;
-    for (int i = 0; i < size_; ++i) planes_[index(i)].begin(moving);
   }
 
  private:
@@ -91,10 +90,6 @@ class ToolPlanes {
     int hits = 0;
     bool is_lent = false;
 
-    template <class Moving>
-    void begin(const Moving& moving) noexcept {
-      height = moving.lowest_in_tool(normal) - swept_radius(moving.tool());
-    }
     template <class Moving>
     void set_motion(const Moving& moving, const MotionFrame<Scalar>& start, const MotionFrame<Scalar>& end, Scalar kept) noexcept {
       at_start.normal = start.rotation * normal;

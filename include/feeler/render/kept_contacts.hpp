@@ -20,6 +20,7 @@ class KeptContacts {
   using Scalar = typename Row::Scalar;
 
   void clear() noexcept { contacts_.clear(); }
+  bool empty() const noexcept { return contacts_.empty(); }
   /// @param row            at the start of the motion
   /// @param certified_gap  separation of its pair there [m]
   void add(const Row& row, Scalar certified_gap) noexcept { contacts_.push_back({row, certified_gap, false}); }
@@ -30,7 +31,7 @@ class KeptContacts {
   }
   /// Adds to a problem, linearised where the motion has come `so_far`, the rows that the `whole` motion would break; false if it breaks none.
   template <class Problem>
-  bool keep_broken(const Twist<Scalar>& so_far, const Twist<Scalar>& whole, Scalar margin, Problem& problem) noexcept {
+  bool keep_broken(const Twist<Scalar>& so_far, const Displacement<Scalar>& whole, Scalar margin, Problem& problem) noexcept {
     bool breaks_any = false;
     for (Contact& contact : contacts_) {
       const Scalar enough = std::min(margin, contact.row.gap) / 10;

@@ -127,6 +127,8 @@ class Linearisation {
 
   /// Before rows of the start are kept: none is in the problem.
   void release_kept() noexcept { kept_.release(); }
+  /// Whether there are rows that a motion from the start may break.
+  bool may_break() const noexcept { return !kept_.empty(); }
   /// Adds the rows of the start that a motion from there would break; false if it breaks none.
   bool keep_broken(const Scene& scene, const Twist<Scalar>& motion) noexcept {
     return kept_.keep_broken(scene.idle_turns().motion_between(start_, pose_), motion, scene.margin(), problem_);
@@ -146,8 +148,9 @@ class Linearisation {
   /// Adds what stopped the last step to the rows where it ended; false if they have it all.
   bool keep_stops() noexcept {
     bool adds = false;
+    const Displacement<Scalar> stopped = stopped_;
     for (const Row& stop : stops_) {
-      const Row row = stop.carried(stopped_);
+      const Row row = stop.carried(stopped);
       if (problem_.repeats(row)) continue;
       adds = problem_.keep(row, pairs_[pairs_.find(row.piece, row.triangle)].slack) || adds;
     }
@@ -164,7 +167,7 @@ class Linearisation {
 
   /// Takes the triangles that the contacts of a solution pass over to into the working set: the row of one they have left hides them.
   void learn_passed(const Scene& scene, Tick<MeshScalar>& tick) noexcept {
-    const auto step = Twist<Scalar>::from_vector(problem_.solution().step);
+    const Displacement<Scalar> step = Twist<Scalar>::from_vector(problem_.solution().step);
     for (const auto& active : problem_.solution().active) {
       const Row& row = problem_.row(active.row);
       if (row.kind != FeaturePair::vertex_face || problem_.is_relaxed(active.row) || pairs_.full()) continue;
@@ -249,7 +252,7 @@ class Linearisation {
 
   /// Moves all rows by a motion; false where `may_carry(row, its pair)` is, or where a pair has left, and others may repeat it.
   template <class MayCarry>
-  bool carry_rows(const Twist<Scalar>& motion, Tick<MeshScalar>& tick, const MayCarry& may_carry) noexcept {
+  bool carry_rows(const Displacement<Scalar>& motion, Tick<MeshScalar>& tick, const MayCarry& may_carry) noexcept {
     has_rows_ = problem_.carry(motion, [&](const Row& row) -> std::optional<Standing> {
       const int i = pairs_.find(row.piece, row.triangle);
       if (i < 0 || !may_carry(row, pairs_[i])) return {};

@@ -55,7 +55,7 @@ class StepProblem {
   /// Moves the rows to where a motion from the pose of linearisation ends, less those kept. Where `standing_of(row)` is empty the result is
   /// false, and the problem is to be cleared.
   template <class StandingOf>
-  bool carry(const Twist<Scalar>& motion, const StandingOf& standing_of) noexcept {
+  bool carry(const Displacement<Scalar>& motion, const StandingOf& standing_of) noexcept {
     const int count = rows_.size() - kept_;
     clear();
     for (int k = 0; k < count; ++k) {
@@ -98,7 +98,7 @@ class StepProblem {
                        [this](const auto& active) { return rows_[active.row].outlasts(solution_.step); });
   }
   /// Whether a motion from the pose of linearisation leaves every row a gap of at least `least` [m], as far as the same features meet.
-  bool leaves_gaps(const Twist<Scalar>& motion, Scalar least) const noexcept {
+  bool leaves_gaps(const Displacement<Scalar>& motion, Scalar least) const noexcept {
     return std::all_of(rows_.begin(), rows_.end(), [&](const Row& row) { return row.carried(motion).gap >= least; });
   }
   int row_count() const noexcept { return rows_.size(); }

@@ -26,6 +26,18 @@ struct Twist {
   Twist operator-() const noexcept { return {-linear, -angular}; }
 };
 
+/// A motion as it moves points: y = R x + linear, about the point that the twist is about.
+template <RealScalar ScalarType>
+struct Displacement {
+  using Scalar = ScalarType;
+
+  Vector3<Scalar> linear;
+  Matrix3<Scalar> turn;  ///< R
+
+  /// Of many points at once the turn is found once.
+  Displacement(const Twist<Scalar>& motion) noexcept : linear(motion.linear), turn(exp_rotation(motion.angular).toRotationMatrix()) {}
+};
+
 /// The pose after the motion: origin p + linear, axes Exp(angular) R.
 template <class Scalar>
 Pose<Scalar> moved(const Pose<Scalar>& pose, const Twist<Scalar>& motion) noexcept {
