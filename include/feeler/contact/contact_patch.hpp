@@ -147,6 +147,7 @@ class ContactPatch {
   bool is_own_plane() const noexcept { return faces_tool_ && (side_ * face_normal_ - normal_).norm() < cone_tolerance; }
 
   /// Whether a point that may lie beside the triangle is over the flat part of the surface that it belongs to; past its rim nothing holds.
+  [[gnu::flatten, gnu::noinline]]
   bool is_over_surface(const Vector& point) const noexcept {
     constexpr int longest_walk = 16;
     const Vector origin = mesh_.vertex(mesh_.triangle(triangle_)[0]).template cast<Scalar>();
@@ -175,6 +176,7 @@ class ContactPatch {
   }
 
   /// The triangle's own plane, where the lowest tool vertex is beside it, near, and every edge between them is a valley's.
+  [[gnu::flatten, gnu::noinline]]
   void add_concave_face(const ClosestPoints<Scalar>& closest, Rows& rows) noexcept {
     if (!has_face_ || rows.full() || closest.distance > 4 * band_) return;
     for (const Scalar side : {Scalar(1), Scalar(-1)}) {
@@ -219,6 +221,7 @@ class ContactPatch {
     }
   }
 
+  [[gnu::flatten, gnu::noinline]]
   void add_corners_on_face(const ToolFace<Scalar>& face, Rows& rows) noexcept {
     const Vector outward = face.normal;
     if (-outward.dot(normal_) < least_cosine) return;
@@ -292,6 +295,7 @@ class ContactPatch {
   }
 
   /// Edges in parallel touch along an interval; its ends hold the tool.
+  [[gnu::flatten, gnu::noinline]]
   void add_parallel_edges(const Vector& tool_start, const Vector& tool, const ObjectEdge& edge, Rows& rows) noexcept {
     const Vector &start = edge.start, &object = edge.span;
     const Scalar length_squared = tool.squaredNorm();
@@ -320,6 +324,7 @@ class ContactPatch {
   }
 
   /// A row whose features meet anywhere within `room` of the point. About a corner the normal turns within the gap: there is no room.
+  [[gnu::flatten, gnu::noinline]]
   Row row_of(FeaturePair kind, const Vector& normal, const Vector& point, Scalar gap, Scalar room = Scalar(0)) const noexcept {
     Row row;
     row.kind = kind;
@@ -349,6 +354,7 @@ class ContactPatch {
 
   /// A row of shapes that touch along a plane. Which of the two the plane belongs to decides whether it turns with the tool, and where they are
   /// in contact: another plane, a hair askew, would ask for what its neighbours forbid.
+  [[gnu::flatten, gnu::noinline]]
   Row row_of_touching(const ClosestPoints<Scalar>& closest) const noexcept {
     if (is_own_plane()) {
       const Vector normal = side_ * face_normal_;
