@@ -206,6 +206,7 @@ class Sweep {
     return std::any_of(known.begin(), known.end(), [triangle](const auto& k) { return k.triangle == triangle; });
   }
 
+  [[gnu::flatten, gnu::noinline]]
   void examine(int triangle, const PassedTriangle<Scalar>& state, const Clearance<Scalar>& clearance, const MovingTool<Tool>& moving,
                SweepResult<Scalar>& result, int& work) noexcept {
     if (continues_wall(state.corners, moving)) return;
@@ -226,6 +227,7 @@ class Sweep {
 
   /// Whether a triangle lies in the plane of a known one that the tool touches without clearance, and slides along: beside it there is a way that
   /// leads nowhere near it in any other direction.
+  [[gnu::flatten, gnu::noinline]]
   bool continues_wall(const Matrix3<Scalar>& corners, const MovingTool<Tool>& moving) noexcept {
     for (const KnownTriangle<Scalar>& wall : known_) {
       if (!wall.is_tight) continue;
@@ -254,6 +256,7 @@ class Sweep {
     for (int i = 0; i < planes_.size(); ++i) coarse_.set_plane(i, planes_.normal(i), planes_.limit(i));
   }
 
+  [[gnu::flatten, gnu::noinline]]
   void add_plane(const Vector& normal, const MovingTool<Tool>& moving) noexcept {
     count_hits();
     const int i = planes_.add(normal, moving, start_, end_, clearance_.kept);
@@ -264,6 +267,7 @@ class Sweep {
     for (int i = 0; i < planes_.size(); ++i) planes_.count_hits(i, coarse_.take_hits(i));
   }
 
+  [[gnu::flatten, gnu::noinline]]
   bool passes(const Matrix3<Scalar>& corners, const MovingTool<Tool>& moving) noexcept {
     const int turning = planes_.with_tool().parting(corners);
     if (turning >= 0) {
