@@ -57,9 +57,12 @@ ClosestPoints<typename Tool::Scalar> gjk(const Tool& tool, const Matrix3<typenam
     return heights[2] > heights[best] ? 2 : best;
   };
   detail::Simplex<Scalar> simplex;
+  Scalar size(0);  // of the tool, as far as it is looked at [m]
   const auto add = [&](int vertex, int corner) {
     const auto i = std::size_t(simplex.size++);
-    simplex.points[i] = tool.vertex(vertex) - triangle.col(corner);
+    const Vector3<Scalar> point = tool.vertex(vertex);
+    size = std::max(size, point.template lpNorm<Eigen::Infinity>());
+    simplex.points[i] = point - triangle.col(corner);
     simplex.tool_vertices[i] = vertex;
     simplex.corners[i] = corner;
   };
@@ -73,10 +76,6 @@ ClosestPoints<typename Tool::Scalar> gjk(const Tool& tool, const Matrix3<typenam
   reduce_to_closest(simplex);
 
   ClosestPoints<Scalar> result;
-  Scalar size = Scalar(0);
-  for (int i = 0; i < simplex.size; ++i) {
-    size = std::max(size, tool.vertex(simplex.tool_vertices[std::size_t(i)]).template lpNorm<Eigen::Infinity>());
-  }
   Scalar best_distance = -std::numeric_limits<Scalar>::infinity();
   for (int iteration = 0; iteration < maximum_iterations; ++iteration) {
     const Vector3<Scalar> v = simplex.closest;

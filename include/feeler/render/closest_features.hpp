@@ -253,17 +253,19 @@ class ClosestFeaturesFollower {
   /// Solves for a step, with the rows of what it would cross.
   void solve(const Scene& scene, const Pose<Scalar>& pose, bool is_capped, Tick<MeshScalar>& tick) noexcept {
     constexpr int most_additions = 3;
-    project(scene, pose, is_capped, tick);
+    const Twist<Scalar> off = scene.idle_turns().motion_between(target_, pose);
+    project(scene, off, is_capped, tick);
     for (int i = 0; i < most_additions && linearisation_.add_crossed(scene, trusted_step(scene, pose), tick); ++i) {
-      project(scene, pose, is_capped, tick);
+      project(scene, off, is_capped, tick);
     }
-    if (!is_capped) bend(scene, pose, tick);
+    if (!is_capped) bend(scene, off, tick);
   }
 
   /// Solves again with rows that came late.
   void project_again(const Scene& scene, const Pose<Scalar>& pose, bool is_capped, Tick<MeshScalar>& tick) noexcept {
-    project(scene, pose, is_capped, tick);
-    if (!is_capped) bend(scene, pose, tick);
+    const Twist<Scalar> off = scene.idle_turns().motion_between(target_, pose);
+    project(scene, off, is_capped, tick);
+    if (!is_capped) bend(scene, off, tick);
   }
 
   /// The step solved for, or as much of it as is trusted.
@@ -273,18 +275,19 @@ class ClosestFeaturesFollower {
     return length > limits_.trust() ? step * (limits_.trust() / length) : step;
   }
 
-  void project(const Scene& scene, const Pose<Scalar>& pose, bool is_capped, Tick<MeshScalar>& tick) noexcept {
+  /// @param off  where the linearised pose is, from the target
+  void project(const Scene& scene, const Twist<Scalar>& off, bool is_capped, Tick<MeshScalar>& tick) noexcept {
     ++tick.work;
     if (is_capped) {
       linearisation_.problem().restore(scene.metric(), scene.margin());
     } else {
-      linearisation_.problem().project(scene.metric(), scene.idle_turns().motion_between(target_, pose), scene.margin());
+      linearisation_.problem().project(scene.metric(), off, scene.margin());
     }
   }
 
-  void bend(const Scene& scene, const Pose<Scalar>& pose, Tick<MeshScalar>& tick) noexcept {
+  void bend(const Scene& scene, const Twist<Scalar>& off, Tick<MeshScalar>& tick) noexcept {
     if (!problem().is_free()) ++tick.work;
-    linearisation_.problem().bend(scene.metric(), scene.idle_turns().motion_between(target_, pose), scene.margin());
+    linearisation_.problem().bend(scene.metric(), off, scene.margin());
   }
 
   /// Solves again with the contacts of the certified pose that the motion would break.
