@@ -3,9 +3,9 @@
 
 #include <array>
 #include <cmath>
-#include <utility>
 
 #include "feeler/core/scalar.hpp"
+#include "feeler/proximity/age_planes.hpp"
 #include "feeler/proximity/clearance.hpp"
 #include "feeler/proximity/feature_cache.hpp"
 #include "feeler/proximity/motion.hpp"
@@ -120,13 +120,7 @@ class PlaneCache {
   /// The sides of a box along the world axes around the motion, −x x −y y −z z: their normals point into it.
   const std::array<PlaneOnMotion<Scalar>, 6>& sides() const noexcept { return sides_; }
   /// Halves the hits and brings the most useful planes to the front.
-  void age() noexcept {
-    for (int i = 0; i < size_; ++i) planes_[index(i)].hits /= 2;
-    for (int i = 1; i < size_; ++i) {
-      for (int k = i; k > 0 && planes_[index(k)].hits > planes_[index(k - 1)].hits; --k) std::swap(planes_[index(k)], planes_[index(k - 1)]);
-    }
-    while (size_ > 0 && planes_[index(size_ - 1)].hits == 0) --size_;
-  }
+  void age() noexcept { detail::age_planes(planes_, size_); }
 
  private:
   static std::size_t index(int i) noexcept { return std::size_t(i); }

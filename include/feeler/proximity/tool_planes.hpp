@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "feeler/core/scalar.hpp"
+#include "feeler/proximity/age_planes.hpp"
 #include "feeler/proximity/motion.hpp"
 #include "feeler/tool/swept_tool.hpp"
 
@@ -62,14 +63,8 @@ class ToolPlanes {
   const Vector3<Scalar>& normal_at_end(int i) const noexcept { return planes_[index(i)].at_end.normal; }
   /// Before a motion: halves the hits and brings the most useful planes to the front.
   void age() noexcept {
-    for (int i = 0; i < size_; ++i) {
-      planes_[index(i)].hits /= 2;
-      planes_[index(i)].is_lent = false;
-    }
-    for (int i = 1; i < size_; ++i) {
-      for (int k = i; k > 0 && planes_[index(k)].hits > planes_[index(k - 1)].hits; --k) std::swap(planes_[index(k)], planes_[index(k - 1)]);
-    }
-    while (size_ > 0 && planes_[index(size_ - 1)].hits == 0) --size_;
+    for (int i = 0; i < size_; ++i) planes_[index(i)].is_lent = false;
+    detail::age_planes(planes_, size_);
   }
 
  private:
