@@ -294,8 +294,9 @@ class ClosestFeaturesFollower {
   void keep_contacts(const Scene& scene, const Pose<Scalar>& pose, bool is_capped, Tick<MeshScalar>& tick) noexcept {
     const auto& turns = scene.idle_turns();
     const auto whole = [&] { return turns.motion_between(pose_, turns.moved(pose, Twist<Scalar>::from_vector(problem().solution().step))); };
+    if (!linearisation_.may_break()) return;
     linearisation_.release_kept();
-    for (int round = 0; round < 2 && linearisation_.may_break() && linearisation_.keep_broken(scene, whole()); ++round) {
+    for (int round = 0; round < 2 && linearisation_.keep_broken(scene, whole()); ++round) {
       project_again(scene, pose, is_capped, tick);
     }
   }
