@@ -81,7 +81,7 @@ void check_gradient(const Contact& contact, Real tolerance, Real rounding = 1e-1
 }
 
 Real curvature_error(const Contact& contact) {
-  return largest_difference(curvature_by_differences(contact.separation), contact.row.curvature());
+  return largest_difference(curvature_by_differences(contact.separation), curvature_of(contact.row));
 }
 
 }  // namespace
@@ -169,7 +169,7 @@ BOOST_AUTO_TEST_CASE(curvature_is_symmetric) {
   std::mt19937 bits(4);
   for (int i = 0; i < 100; ++i)
     for (const Contact& contact : {vertex_face(bits), face_vertex(bits), edge_edge(bits, 1e-6)}) {
-      const auto curvature = contact.row.curvature();
+      const auto curvature = curvature_of(contact.row);
       BOOST_TEST((curvature - curvature.transpose()).norm() < 1e-13);
     }
 }

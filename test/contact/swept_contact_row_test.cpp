@@ -92,7 +92,7 @@ BOOST_AUTO_TEST_CASE(gradient_and_curvature_of_points_and_lines_are_derivatives_
       const Pair pair = random_pair(bits, (kind & 1) != 0, (kind & 2) != 0);
       const SweptContactRow<double> row = pair.row();
       const auto separation = [&](const Wide6& step) { return pair.separation(step); };
-      const auto curvature = row.curvature();
+      const auto curvature = curvature_of(row);
       BOOST_TEST((curvature - curvature.transpose()).norm() < 1e-12);
       worst_gradient = std::max(worst_gradient, largest_difference(gradient_by_differences(separation), row.gradient()));
       worst_curvature = std::max(worst_curvature, largest_difference(curvature_by_differences(separation), curvature));
@@ -126,7 +126,7 @@ BOOST_AUTO_TEST_CASE(a_face_is_not_bent_by_the_radius) {
   row.normal = Vector(1, 2, 3).normalized();
   row.arm = Vector(0.1, -0.2, 0.3);
   const feeler::ContactRow<double>& sharp = row;
-  BOOST_TEST((row.curvature() == sharp.curvature()));
+  BOOST_TEST((curvature_of(row) == curvature_of(sharp)));
   static_assert(std::is_same_v<feeler::ContactRowOf<feeler::Box<double>>, feeler::ContactRow<double>>);
 }
 
@@ -160,7 +160,7 @@ BOOST_AUTO_TEST_CASE(rows_of_a_round_tool_predict_its_separation_to_third_order)
       const Eigen::Matrix3d seen = moved.rotation.toRotationMatrix().transpose() * (corners.colwise() - moved.translation);
       const feeler::test::WideTool wide_tool(tool);
       const double separation = double(feeler::test::closest_features(wide_tool, wide(seen)).distance - wide_tool.radius);
-      const double predicted = row.gap + row.gradient().dot(step) + step.dot(row.curvature() * step) / 2;
+      const double predicted = row.gap + row.gradient().dot(step) + step.dot(curvature_of(row) * step) / 2;
       // Another feature may take over within the step: its curvature is unlike by as much as the radius allows.
       worst = std::max(worst, std::abs(predicted - separation) / size);
     }

@@ -94,14 +94,7 @@ struct ContactRow {
     return j;
   }
 
-  /// C: second derivative of the separation by the step.
-  Matrix6<Scalar> curvature() const noexcept {
-    Matrix6<Scalar> lower = Matrix6<Scalar>::Zero();
-    add_curvature(Scalar(1), lower);
-    return lower.template selfadjointView<Eigen::Lower>();
-  }
-
-  /// Adds a multiple of C to the lower triangle of a matrix, number by number: whole blocks would wait for each other in memory.
+  /// Adds a multiple of C, the second derivative of the separation by the step, to the lower triangle of a matrix, number by number: whole blocks would wait for each other in memory.
   ///
   /// A vertex on a face moves by Exp(w)r, so its part is A(n, r). A face on a vertex z sees it
   /// move by Exp(−w)(z − dp). Where edges u (object) and v (tool) cross, n ∝ v × u turns by δn = B w, and δn·δx is added.
@@ -144,5 +137,14 @@ struct ContactRow {
     }
   }
 };
+
+/// C of a row, whole.
+template <class Row>
+Matrix6<typename Row::Scalar> curvature_of(const Row& row) noexcept {
+  using Scalar = typename Row::Scalar;
+  Matrix6<Scalar> lower = Matrix6<Scalar>::Zero();
+  row.add_curvature(Scalar(1), lower);
+  return lower.template selfadjointView<Eigen::Lower>();
+}
 
 }  // namespace feeler

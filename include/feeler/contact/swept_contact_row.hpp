@@ -41,16 +41,11 @@ struct SweptContactRow : ContactRow<ScalarType> {
     return row;
   }
 
-  /// As `ContactRow::curvature` and `add_curvature`.
+  /// As `ContactRow::add_curvature`.
   ///
   /// The distance is the least of |x + a v − y − b u| over a and b, x − y = d n, with x moved by dp + w×x + ½ w×(w×x). With J = [I, −[x]×],
   /// P = I − nnᵀ and Φ the mixed derivatives by the step and (a, b), second derivatives of such a minimum are
   /// C = A(n, x) + JᵀPJ/d − Φ H⁻¹ Φᵀ, where Φ = [Jᵀv/d + (0, v×n), −Jᵀu/d] and H = [1, −u·v; −u·v, 1]/d; for a point its part is left out.
-  Matrix6<Scalar> curvature() const noexcept {
-    Matrix6<Scalar> lower = Matrix6<Scalar>::Zero();
-    add_curvature(Scalar(1), lower);
-    return lower.template selfadjointView<Eigen::Lower>();
-  }
   void add_curvature(const Scalar& multiple, Matrix6<Scalar>& lower) const noexcept {
     if (!(core_distance > Scalar(0))) return ContactRow<Scalar>::add_curvature(multiple, lower);
     using Column = Vector6<Scalar>;

@@ -68,9 +68,7 @@ class StepCoordinates {
     if constexpr (increments == Increments::rotation_vector) {
       return metric.gradient(motion_between(target, base_));
     } else {
-      Vector6<Scalar> weights;
-      weights << metric.translational, metric.rotational;
-      return -weights.cwiseProduct(of(target));
+      return -metric.diagonal().cwiseProduct(of(target));
     }
   }
 

@@ -205,8 +205,7 @@ class StepProblem {
   /// has negative curvature along the rows too, the tool is about to slip off: there part of the metric takes its place.
   [[gnu::flatten, gnu::noinline]]
   void set_lagrangian_hessian(const Metric<Scalar>& metric, const Twist<Scalar>& e) noexcept {
-    Vector6<Scalar> base;
-    base << metric.translational, metric.rotational;
+    const Vector6<Scalar> base = metric.diagonal();
     // Summed before it is subtracted: of contacts between faces much cancels, and does so to the last bit.
     Matrix6<Scalar> curvature = Matrix6<Scalar>::Zero();
     for (const auto& active : solution_.active) rows_[active.row].add_curvature(active.multiplier, curvature);

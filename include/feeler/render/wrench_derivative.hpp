@@ -34,7 +34,7 @@ template <class Follower>
 concept HasStepProblem = requires(const Follower& follower) {
   follower.target().translation;
   follower.problem().solution().active;
-  follower.problem().row(0).curvature();
+  curvature_of(follower.problem().row(0));
 };
 
 namespace detail {
@@ -213,7 +213,7 @@ noexcept {
   Matrix6<Scalar> across = Matrix6<Scalar>::Zero();
   Matrix6<Scalar> curvature = Matrix6<Scalar>::Zero();
   for (const auto& share : pushing.shares()) {
-    curvature += share.force * problem.row(share.row).curvature();
+    curvature += share.force * curvature_of(problem.row(share.row));
     Vector6<Scalar> rest = share.gradient - across * share.gradient;
     rest -= across * rest;  // once more, against rounding
     constexpr Scalar dependent = Scalar(1e-6);

@@ -25,6 +25,13 @@ struct Metric {
     return {Vector3<Scalar>::Ones(), Vector3<Scalar>::Constant(length * length)};
   }
 
+  /// Of M.
+  Vector6<Scalar> diagonal() const noexcept {
+    Vector6<Scalar> weights;
+    weights << translational, rotational;
+    return weights;
+  }
+
   /// aᵀ M b [m²].
   Scalar product(const Twist<Scalar>& a, const Twist<Scalar>& b) const noexcept {
     return a.linear.dot(translational.cwiseProduct(b.linear)) + a.angular.dot(rotational.cwiseProduct(b.angular));
