@@ -52,6 +52,8 @@ Mesh spike() {
 struct Found {
   bool has_rows = false;
   PatchRows<double> rows;
+  double distance = 0;
+  int nearer = -1;  // the triangle that the patch names
 
   int count(FeaturePair kind) const {
     int n = 0;
@@ -72,6 +74,8 @@ Found find(const Tool& tool, const Mesh& mesh, int triangle, const feeler::Pose<
   ContactPatch<Tool, double> patch(tool, incidence, mesh, axes, reference, band, assumes_valleys);
   Found found;
   found.has_rows = patch.find(triangle, corners, closest, keep_ghost, found.rows);
+  found.distance = closest.distance;
+  found.nearer = patch.nearer_triangle(closest);
   return found;
 }
 
@@ -229,6 +233,7 @@ BOOST_AUTO_TEST_CASE(a_neighbour_in_the_same_plane_gives_no_row_that_holds_the_t
         if (row.gap < 1e-4) BOOST_TEST((row.normal - Vector::UnitZ()).norm() < 1e-5);
       if (found.has_rows) continue;
       ++ghosts;
+      BOOST_TEST(found.nearer == 1 - triangle);
       const Found asked = find(box, mesh, triangle, pose, true);
       BOOST_TEST(asked.has_rows);
       BOOST_TEST(asked.rows.size() == 1);
@@ -237,6 +242,27 @@ BOOST_AUTO_TEST_CASE(a_neighbour_in_the_same_plane_gives_no_row_that_holds_the_t
   }
   BOOST_TEST(ghosts > 200);
   BOOST_TEST(kept == ghosts);
+}
+
+BOOST_AUTO_TEST_CASE(the_neighbour_of_a_ghost_that_the_patch_names_is_nearer) {
+  const Box box(Vector(0.03, 0.02, 0.01));
+  constexpr unsigned seed = 8;
+  BOOST_TEST_MESSAGE("seed " << seed);
+  std::mt19937 bits(seed);
+  int ghosts = 0;
+  for (const Mesh& mesh : {spike(), roof(), floor()}) {
+    for (int i = 0; i < 1000; ++i) {
+      const auto pose = at(0.1 * random_vector(bits) + Vector(0, 0, 0.02), turn(3 * unit(bits), random_direction(bits)));
+      for (int triangle = 0; triangle < mesh.triangle_count(); ++triangle) {
+        const Found found = find(box, mesh, triangle, pose);
+        if (found.has_rows || found.distance <= 0) continue;
+        ++ghosts;
+        BOOST_REQUIRE(found.nearer >= 0);
+        BOOST_TEST(find(box, mesh, found.nearer, pose).distance < found.distance);
+      }
+    }
+  }
+  BOOST_TEST(ghosts > 1000);
 }
 
 BOOST_AUTO_TEST_CASE(the_rows_of_any_pair_are_separations_that_are_true_at_the_pose) {

@@ -301,6 +301,49 @@ BOOST_AUTO_TEST_CASE(cones_agree_with_the_closest_point) {
   }
 }
 
+BOOST_AUTO_TEST_CASE(the_triangle_along_a_direction_has_the_edge_that_points_most_along_it) {
+  constexpr unsigned seed = 11;
+  BOOST_TEST_MESSAGE("seed " << seed);
+  std::mt19937 bits(seed);
+  int along = 0, away = 0;
+  for (int round = 0; round < 2000; ++round) {
+    std::array<double, 6> heights{};
+    for (double& h : heights) h = round % 2 == 0 ? unit(bits) : unit(bits) - 1;  // every second one more of a tip
+    const int missing = round % 7;  // where there are six, one is left out
+    Mesh mesh = fan(heights);
+    Points<double> p(7, 3);
+    for (int i = 0; i < 7; ++i) p.row(i) = mesh.vertex(i).transpose();
+    Triangles t(0, 3);
+    for (int i = 0; i < 6; ++i) {
+      if (i == missing) continue;
+      t.conservativeResize(t.rows() + 1, 3);
+      for (int k = 0; k < 3; ++k) t(t.rows() - 1, k) = mesh.triangle(i)[std::size_t(k)];
+    }
+    mesh = Mesh(p, t);
+    const Vector direction = Vector(unit(bits), unit(bits), unit(bits)).normalized();
+    const auto highest_of = [&](int triangle) {
+      double highest = 0;
+      for (const int v : mesh.triangle(triangle))
+        if (!mesh.vertex(v).isZero(0)) highest = std::max(highest, direction.dot(mesh.vertex(v).normalized()));
+      return highest;
+    };
+    for (int start = 0; start < mesh.triangle_count(); ++start) {
+      const auto& corners = mesh.triangle(start);
+      const int corner = mesh.vertex(corners[0]).isZero(0) ? 0 : mesh.vertex(corners[1]).isZero(0) ? 1 : 2;
+      double highest = 0;
+      for (int other = 0; other < mesh.triangle_count(); ++other)
+        if (other != start) highest = std::max(highest, highest_of(other));
+      const int found = feeler::triangle_along<double>(mesh, start, corner, direction);
+      BOOST_TEST(found != start);
+      if (highest > 0) BOOST_TEST((found >= 0 && highest_of(found) == highest));
+      else BOOST_TEST(found == -1);
+      ++(highest > 0 ? along : away);
+    }
+  }
+  BOOST_TEST(along > 1000);
+  BOOST_TEST(away > 100);
+}
+
 BOOST_AUTO_TEST_CASE(vertex_of_many_edges_accepts_every_direction) {
   const int n = 65;
   Points<double> p(n + 1, 3);

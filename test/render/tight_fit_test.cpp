@@ -81,8 +81,9 @@ BOOST_AUTO_TEST_CASE(a_shaft_slides_like_the_device_and_stays_in_the_corner_it_i
 
 BOOST_AUTO_TEST_CASE(a_pressed_shaft_comes_to_rest_whatever_a_tick_may_take) {
   // About where there is no room for the margin, hundreds of pairs touch, and what the first ticks have time for decides which are looked at.
+  // With the first seven budgets one at the rim was missing at 1 µm, and the shaft hopped to and fro by 0.1 µm for ever.
   for (const double clearance : {1e-6, 1.5e-6, 2e-6, 3e-6}) {
-    for (const int budget : {160, 208, 232, 240, 328, 352}) {
+    for (const int budget : {53, 65, 68, 107, 120, 121, 290, 160, 208, 232, 240, 328, 352}) {
       BOOST_TEST_CONTEXT("clearance " << clearance << ", work budget " << budget) {
         PressedShaft shaft(clearance, budget);
         int unconverged = 0;

@@ -97,6 +97,14 @@ class ContactPatch {
     return true;
   }
 
+  /// Of a triangle whose closest points were found to be a ghost: a neighbour that is nearer to the tool, or -1.
+  int nearer_triangle(const ClosestPoints<Scalar>& closest) const noexcept {
+    const Place place = place_of(closest);
+    if (place.corners == 1) return triangle_along(mesh_, triangle_, place.index, direction_of(normal_));
+    if (place.corners == 2) return std::max(mesh_.topology().neighbour(triangle_, place.index), -1);
+    return -1;
+  }
+
  private:
   static constexpr int near_capacity = 16;
   // Features whose own normal differs more from the contact's belong to another part of the surface.
@@ -399,31 +407,39 @@ class ContactPatch {
     return row;
   }
 
-  bool is_in_cone(const ClosestPoints<Scalar>& closest) const noexcept {
+  /// Where on the triangle the closest point is.
+  struct Place {
+    int corners;  // that it is between; of overlapping shapes none
+    int index;    // of the corner, if one, or the edge, if two
+  };
+  static Place place_of(const ClosestPoints<Scalar>& closest) noexcept {
     std::array<bool, 3> used{};
     for (std::size_t i = 0; i < std::size_t(closest.features.size); ++i) used[std::size_t(closest.features.corners[i])] = true;
     const int count = int(used[0]) + int(used[1]) + int(used[2]);
-    if (count == 1) return is_in_vertex_cone(used[0] ? 0 : used[1] ? 1 : 2, normal_);
-    if (count == 2) return is_in_edge_cone(!used[2] ? 0 : !used[0] ? 1 : 2, normal_);
-    return count == 3 || !is_own_plane() || is_over_surface(closest.tool_point);
+    if (count == 1) return {count, used[0] ? 0 : used[1] ? 1 : 2};
+    return {count, !used[2] ? 0 : !used[0] ? 1 : 2};
+  }
+  Vector3<MeshScalar> direction_of(const Vector& normal) const noexcept { return (world_from_tool_ * normal).template cast<MeshScalar>(); }
+
+  bool is_in_cone(const ClosestPoints<Scalar>& closest) const noexcept {
+    const Place place = place_of(closest);
+    if (place.corners == 1) return is_in_vertex_cone(place.index, normal_);
+    if (place.corners == 2) return is_in_edge_cone(place.index, normal_);
+    return place.corners == 3 || !is_own_plane() || is_over_surface(closest.tool_point);
   }
   bool is_in_vertex_cone(int corner, const Vector& normal) const noexcept {
-    const Vector3<MeshScalar> direction = (world_from_tool_ * normal).template cast<MeshScalar>();
-    return vertex_cone_contains(mesh_, mesh_.triangle(triangle_)[index(corner)], direction, MeshScalar(cone_tolerance));
+    return vertex_cone_contains(mesh_, mesh_.triangle(triangle_)[index(corner)], direction_of(normal), MeshScalar(cone_tolerance));
   }
   bool is_in_edge_cone(int edge, const Vector& normal) const noexcept {
-    const Vector3<MeshScalar> direction = (world_from_tool_ * normal).template cast<MeshScalar>();
-    return edge_cone_contains(mesh_, triangle_, edge, direction, MeshScalar(cone_tolerance));
+    return edge_cone_contains(mesh_, triangle_, edge, direction_of(normal), MeshScalar(cone_tolerance));
   }
 
   // In a patch the triangle itself may rise a little from one of its features to the next; both hold the tool. Its neighbours may not.
   bool is_clear_of_neighbours_at_corner(int corner, const Vector& normal) const noexcept {
-    const Vector3<MeshScalar> direction = (world_from_tool_ * normal).template cast<MeshScalar>();
-    return neighbours_point_away(mesh_, triangle_, corner, direction, MeshScalar(cone_tolerance));
+    return neighbours_point_away(mesh_, triangle_, corner, direction_of(normal), MeshScalar(cone_tolerance));
   }
   bool is_clear_of_neighbour_across(int edge, const Vector& normal) const noexcept {
-    const Vector3<MeshScalar> direction = (world_from_tool_ * normal).template cast<MeshScalar>();
-    return neighbour_points_away(mesh_, triangle_, edge, direction, MeshScalar(cone_tolerance));
+    return neighbour_points_away(mesh_, triangle_, edge, direction_of(normal), MeshScalar(cone_tolerance));
   }
 
   const Tool& tool_;

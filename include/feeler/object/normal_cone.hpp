@@ -102,4 +102,36 @@ bool vertex_cone_contains(const TriangleMesh<Scalar>& mesh, int vertex, const Ve
   return true;
 }
 
+/// The triangle at a corner of another one whose edges there point most along a direction, found by walking around the corner; -1 if none of
+/// them points along it.
+///
+/// Where a direction leaves the normal cone of the vertex, the mesh is nearer there to what is off the vertex in that direction.
+/// @cost  noexcept, no allocation, at most twice `max_cone_valence` triangles
+template <RealScalar Scalar>
+int triangle_along(const TriangleMesh<Scalar>& mesh, int triangle, int corner, const Vector3<Scalar>& direction) noexcept {
+  using std::sqrt;
+  const int vertex = mesh.triangle(triangle)[std::size_t(corner)];
+  int best = -1;
+  Scalar highest(0);
+  for (const int side : {0, 2}) {  // across the edge that leaves the vertex, and, if the surface ends there, across the one that comes to it
+    int current = triangle;
+    for (int step = 0; step < max_cone_valence; ++step) {
+      const std::array<int, 3>& corners = mesh.triangle(current);
+      const int k = corners[0] == vertex ? 0 : corners[1] == vertex ? 1 : 2;
+      current = mesh.topology().neighbour(current, (k + side) % 3);
+      if (current < 0) break;
+      if (current == triangle) return best;
+      for (const int other : mesh.triangle(current)) {
+        if (other == vertex) continue;
+        const Vector3<Scalar> along = mesh.vertex(other) - mesh.vertex(vertex);
+        const Scalar height = direction.dot(along) / sqrt(along.squaredNorm());
+        if (!(height > highest)) continue;
+        highest = height;
+        best = current;
+      }
+    }
+  }
+  return best;
+}
+
 }  // namespace feeler

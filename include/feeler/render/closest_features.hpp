@@ -116,6 +116,7 @@ class ClosestFeaturesFollower {
         std::min(scene.settings().maximum_iterations, Tick<MeshScalar>::path_capacity - IdleTurns<typename Scene::Tool>::legs);
     const auto& turns = scene.idle_turns();
     bool came_to_nothing = false, is_taken_back = false;
+    int known_pairs = 0;
     tick.iterations = 0;
     do {
       ++tick.iterations;
@@ -126,9 +127,11 @@ class ClosestFeaturesFollower {
         // One linearisation takes back what another asks for, as a triangle is missing from both: the first alone will meet it.
         came_to_nothing = true;
         is_taken_back = proposal.is_taken_back;
+        known_pairs = linearisation_.pairs().size();
         continue;
       }
-      if (came_to_nothing && (is_taken_back || proposal.is_at_rest) && !is_worth_it(scene, proposal.motion)) return true;
+      const bool is_held = is_taken_back && linearisation_.pairs().size() == known_pairs;  // one linearisation alone knows no more than the two
+      if (came_to_nothing && (is_held || proposal.is_at_rest) && !is_worth_it(scene, proposal.motion)) return true;
       if (length <= resting) return proposal.is_settled && !proposal.is_capped;
       const bool is_nearer = descends(scene, turns.moved(pose_, proposal.motion), proposal.restoration, came_to_nothing);
       came_to_nothing = false;

@@ -85,6 +85,7 @@ class Linearisation {
     for (Pair& pair : pairs_) {
       if (pair.state == PairState::left_out) measure_if_near(scene, pair, tick);
     }
+    measure_nearer(scene, tick);
     tick.rows = problem_.row_count();
     return true;
   }
@@ -121,6 +122,7 @@ class Linearisation {
       measure(scene, pair, tick);
       adds = true;
     }
+    measure_nearer(scene, tick);
     tick.rows = problem_.row_count();
     return adds;
   }
@@ -174,9 +176,7 @@ class Linearisation {
       const Vector3<Scalar> point = pose_.translation + step.linear + row.carried(step).arm;
       const int triangle = triangle_under(scene.object(), row.triangle, point);
       if (triangle < 0 || pairs_.find(row.piece, triangle) >= 0) continue;
-      Pair& pair = take_in(scene, row.piece, triangle, pairs_[pairs_.find(row.piece, row.triangle)].features);
-      const Matrix3<Scalar> axes = start_.rotation.toRotationMatrix();
-      query(scene, pair, scene.in_tool(pair.corners_world, start_, axes), axes, true, tick);
+      take_in_as_at_start(scene, row.piece, triangle, pairs_[pairs_.find(row.piece, row.triangle)].features, tick);
     }
   }
 
@@ -246,6 +246,7 @@ class Linearisation {
     } else {
       for (Pair& pair : pairs_) measure_if_near(scene, pair, tick);
     }
+    measure_nearer(scene, tick);
     has_rows_ = true;
     tick.rows = problem_.row_count();
   }
@@ -321,6 +322,10 @@ class Linearisation {
                                           scene.trust_radius() / 4, assumes_valleys_);
     pair.state = patch.find(pair.triangle, corners, closest, pair.keeps_ghost, patch_rows_) ? PairState::repeats : PairState::ghost;
     if (is_at_start_) pair.is_ghost = pair.state == PairState::ghost;
+    if (pair.state == PairState::ghost && closest.distance < touching(scene)) {
+      const int nearer = patch.nearer_triangle(closest);
+      if (nearer >= 0 && pairs_.find(pair.piece, nearer) < 0) nearer_.push_back({pair.piece, nearer, pair.features});
+    }
     for (Row& row : patch_rows_) {
       row.piece = pair.piece;
       row.triangle = pair.triangle;
@@ -332,6 +337,19 @@ class Linearisation {
     if constexpr (is_convex) {
       if (pair.state == PairState::has_rows && !pair.keeps_ghost && !closest.is_touching) covers_.add(pair.last_normal, from_tool(pair), closest.distance);
     }
+  }
+
+  /// Takes in, and measures, the neighbours of ghosts that are to hold the tool in their place. They never blocked a motion: it may come closer
+  /// than the margin. So the tool would, and turn back where the ghost is none any more.
+  void measure_nearer(const Scene& scene, Tick<MeshScalar>& tick) noexcept {
+    for (int i = 0; i < nearer_.size() && !pairs_.full(); ++i) {  // one of them may be a ghost, and add another
+      const Nearer nearer = nearer_[i];
+      if (pairs_.find(nearer.piece, nearer.triangle) >= 0) continue;
+      Pair& pair = is_at_start_ ? take_in(scene, nearer.piece, nearer.triangle, nearer.features)
+                                : take_in_as_at_start(scene, nearer.piece, nearer.triangle, nearer.features, tick);
+      measure(scene, pair, tick);
+    }
+    nearer_.clear();
   }
 
   static Standing standing_of(const Pair& pair) noexcept { return {pair.slack, pair.is_tight, pair.is_spare()}; }
@@ -391,11 +409,25 @@ class Linearisation {
     pair.features = features;
     return pair;
   }
+  /// The same on the way of a motion, with the plane that the pair had where that starts.
+  Pair& take_in_as_at_start(const Scene& scene, int piece, int triangle, WitnessFeatures features, Tick<MeshScalar>& tick) noexcept {
+    Pair& pair = take_in(scene, piece, triangle, features);
+    const Matrix3<Scalar> axes = start_.rotation.toRotationMatrix();
+    query(scene, pair, scene.in_tool(pair.corners_world, start_, axes), axes, true, tick);
+    return pair;
+  }
+
+  /// A neighbour of a ghost that is nearer.
+  struct Nearer {
+    int piece, triangle;
+    WitnessFeatures features;  // of the ghost
+  };
 
   Pairs pairs_;
   Problem problem_;
   KeptContacts<Row, Problem::row_capacity> kept_;
   CoveringPlanes<Scalar> covers_;      // of the pairs measured where the rows are
+  FixedVector<Nearer, 16> nearer_;     // that are no pairs yet
   FixedVector<Row, 6> stops_;          // of the last step, where it began
   Twist<Scalar> stopped_;              // that step
   PatchRows<Scalar, Row> patch_rows_;  // of the pair at hand
