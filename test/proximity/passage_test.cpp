@@ -354,16 +354,20 @@ BOOST_AUTO_TEST_CASE(a_line_that_rolls_over_an_edge_is_followed_to_where_it_lies
 
 BOOST_AUTO_TEST_CASE(
     required_separation_never_exceeds_what_there_is_and_falls_no_further_than_twice_the_allowance) {
-  const Clearance<double> clearance;
-  double last = -std::numeric_limits<double>::infinity();
-  for (double start = -1e-9; start < 1e-6; start += 1.1e-11) {
-    const double required = clearance.required(start);
-    BOOST_TEST((required <= clearance.kept && required >= -2 * clearance.allowance));
-    if (start > -clearance.allowance) BOOST_TEST(required <= start);
-    BOOST_TEST(required >= last);
-    last = required;
+  for (const double rounding : {0.0, 1e-8, 1e-7}) {
+    Clearance<double> clearance;
+    clearance.rounding = rounding;
+    double last = -std::numeric_limits<double>::infinity();
+    for (double start = -1e-9; start < 1e-6; start += 1.1e-11) {
+      const double required = clearance.required(start);
+      BOOST_TEST((required <= clearance.kept && required >= -2 * clearance.allowance));
+      if (start > -clearance.allowance) BOOST_TEST(required <= start);
+      if (rounding > 0 && start > rounding) BOOST_TEST(required >= std::min(rounding, clearance.kept));
+      BOOST_TEST(required >= last);
+      last = required;
+    }
+    BOOST_TEST(clearance.required(1) == clearance.kept);
   }
-  BOOST_TEST(clearance.required(1) == clearance.kept);
 }
 
 BOOST_AUTO_TEST_SUITE_END()

@@ -12,6 +12,7 @@ template <class Scalar>
 struct Clearance {
   Scalar kept = Scalar(1e-7);        ///< separation required wherever there is that much to begin with [m]
   Scalar kept_from_unknown = kept;   ///< the same from triangles that a sweep is not told of: they are to be known before they hold the tool [m]
+  Scalar rounding = Scalar(0);       ///< of the poses that are returned: where there is that much to begin with, no motion leaves less [m]
   Scalar allowance = Scalar(5e-12);  ///< overlap accepted where there is no clearance at all; rounding, never accumulated [m]
   Scalar touching = Scalar(1e-8);    ///< see `touching_distance` [m]
   Scalar resolution = Scalar(2.5e-7);  ///< advance too small to look for [m]
@@ -28,7 +29,7 @@ struct Clearance {
   /// Separation required along a motion that starts `start` away: tight fits may halve it, an overlap may stay but not grow.
   Scalar required(Scalar start) const noexcept {
     if (start >= 2 * kept) return std::min(kept, start);  // kept may be an overlap itself
-    if (start > allowance / 5) return start / 2;
+    if (start > allowance / 5) return start > rounding ? std::max(start / 2, rounding) : start / 2;
     return std::clamp(start, -2 * allowance, -allowance);
   }
 };

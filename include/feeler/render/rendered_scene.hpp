@@ -66,9 +66,10 @@ class RenderedScene {
     if (!(Scalar(settings.margin) >= least_margin && settings.margin <= std::numeric_limits<MeshScalar>::max()))
       refuse("HapticRenderer: Settings::margin is not a length of at least " + std::to_string(long(double(least_margin) * 1e12 + 0.5)) +
              " pm; with less, rounding can carry the tool through a surface; leave the default of 1 µm if in doubt");
-    margin_ = std::max(Scalar(settings.margin), 10 * rounding_of_poses(object.bounds(), surface + reference_.norm()));
+    clearance_.rounding = rounding_of_poses(object.bounds(), surface + reference_.norm());
+    margin_ = std::max(Scalar(settings.margin), 10 * clearance_.rounding);
     clearance_.kept = margin_ / 10;
-    clearance_.kept_from_unknown = margin_ * 9 / 10;  // or the tool would hop when one is found
+    clearance_.kept_from_unknown = margin_ / 2;  // or the tool would hop by more when one is found
     clearance_.touching = touching_distance(radius_);
     clearance_.probe = trust_radius() / 4;
   }
