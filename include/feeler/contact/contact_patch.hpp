@@ -97,7 +97,7 @@ class ContactPatch {
     return true;
   }
 
-  /// Of a triangle whose closest points were found to be a ghost: a neighbour that is nearer to the tool, or -1.
+  /// After `find`, of a triangle whose closest points are a ghost: a neighbour that is nearer to the tool, or -1.
   int nearer_triangle(const ClosestPoints<Scalar>& closest) const noexcept {
     const Place place = place_of(closest);
     if (place.corners == 1) return triangle_along(mesh_, triangle_, place.index, direction_of(normal_));
