@@ -70,6 +70,88 @@ BOOST_AUTO_TEST_CASE(where_the_tool_is_about_to_slip_off_the_step_is_finite_and_
   }
 }
 
+BOOST_AUTO_TEST_CASE(with_the_forces_of_the_last_step_steps_converge_quadratically_without_a_projection) {
+  // A point held by a ball, the hand inside it: it comes to rest where the ray from the middle through the hand leaves the ball.
+  const double radius = 0.01;
+  const Eigen::Vector3d hand(0.004, 0.001, 0.003);
+  const Metric<double> metric;
+  Problem problem;
+  Eigen::Vector3d point = radius * Eigen::Vector3d(0.3, -0.4, 0.9).normalized();
+  int steps = 0;
+  for (double error = 1; error > 1e-15 && steps < 8; ++steps) {
+    BentRow row;
+    row.normal = point.normalized();
+    row.gap = point.norm() - radius;
+    row.bend.topLeftCorner<3, 3>() = (Eigen::Matrix3d::Identity() - row.normal * row.normal.transpose()) / point.norm();
+    problem.clear();
+    BOOST_TEST_REQUIRE(problem.add(row, {0.0}));
+    const Twist<double> graphic_from_haptic{point - hand, Eigen::Vector3d::Zero()};
+    if (steps == 0) {
+      BOOST_TEST((problem.bend_again(metric, graphic_from_haptic, 0.0) == Problem::Guess::wrong));  // there is no last step
+      problem.project(metric, graphic_from_haptic, 0.0);
+      problem.bend(metric, graphic_from_haptic, 0.0);
+    } else {
+      const Problem::Guess guess = problem.bend_again(metric, graphic_from_haptic, 0.0);
+      BOOST_TEST_REQUIRE((guess == (steps == 1 ? Problem::Guess::near : Problem::Guess::right)));  // the first step is long, and the force becomes another
+      if (guess == Problem::Guess::near) problem.bend(metric, graphic_from_haptic, 0.0);
+      BOOST_TEST(!problem.is_free());
+    }
+    point += problem.solution().step.head<3>();
+    const double last = error;
+    error = (point - radius * hand.normalized()).norm();
+    if (steps > 0) BOOST_TEST(error < 150 * last * last + 1e-16, "step " << steps << ": " << last << " to " << error);
+  }
+  BOOST_TEST(steps <= 6);
+}
+
+BOOST_AUTO_TEST_CASE(a_guess_of_the_forces_says_what_it_is_worth) {
+  using Corner = StepProblem<DualActiveSet<double>, 8>;
+  using Guess = Corner::Guess;
+  const Metric<double> metric;
+  const auto into = [](double x, double z) { return Twist<double>{{x, 0, z}, Eigen::Vector3d::Zero()}; };  // the corner between the two, or out of it
+  ContactRow<double> floor, wall;
+  wall.normal = Eigen::Vector3d::UnitX();
+  Corner problem;
+  const auto solve = [&](const Twist<double>& e) {
+    problem.project(metric, e, 0.0);
+    problem.bend(metric, e, 0.0);
+  };
+  problem.add(floor, {0.0});
+  problem.add(wall, {0.0});
+  solve(into(-1e-3, 1e-3));
+  BOOST_TEST((problem.bend_again(metric, into(-1e-3, 1.1e-3), 0.0) == Guess::right));
+  BOOST_TEST((problem.bend_again(metric, into(-1e-3, 2e-3), 0.0) == Guess::near));  // the force is another
+  BOOST_TEST((problem.bend_again(metric, into(1e-3, 1e-3), 0.0) == Guess::near));  // the wall holds it too
+  problem.bend(metric, into(1e-3, 1e-3), 0.0);
+  BOOST_TEST(problem.solution().step.isZero(1e-18));
+  BOOST_TEST((problem.bend_again(metric, into(1e-3, -1e-3), 0.0) == Guess::near));  // the floor does not
+  BOOST_TEST((problem.bend_again(metric, into(-1e-3, -1e-3), 0.0) == Guess::wrong));  // nothing does
+  problem.restore(metric, 1e-6);  // whose forces are of another problem
+  BOOST_TEST((problem.bend_again(metric, into(1e-3, 1e-3), 0.0) == Guess::right));
+
+  problem.clear();
+  problem.add(floor, {0.0});
+  BOOST_TEST((problem.bend_again(metric, into(-1e-3, 1e-3), 0.0) == Guess::wrong));  // the wall is gone
+  solve(into(-1e-3, 1e-3));
+  problem.clear();
+  problem.add(wall, {0.0});
+  problem.add(floor, {0.0});
+  BOOST_TEST((problem.bend_again(metric, into(-1e-3, 1e-3), 0.0) == Guess::right));
+  ContactRow<double> ceiling;  // with which none has the margin
+  ceiling.normal = -floor.normal;
+  problem.add(ceiling, {0.0});
+  BOOST_TEST((problem.bend_again(metric, into(-1e-3, 1e-3), 1e-6) == Guess::wrong));
+  problem.clear();
+  problem.add(floor, {0.0});
+  solve(into(-1e-3, 1e-3));
+  problem.project(metric, into(-1e-3, -1e-3), 0.0);
+  BOOST_TEST(problem.is_free());
+  BOOST_TEST((problem.bend_again(metric, into(-1e-3, 1e-3), 0.0) == Guess::wrong));  // it was free
+  solve(into(-1e-3, 1e-3));
+  problem.forget();
+  BOOST_TEST((problem.bend_again(metric, into(-1e-3, 1e-3), 0.0) == Guess::wrong));
+}
+
 BOOST_AUTO_TEST_CASE(without_clearance_spare_rows_leave_the_tool_to_others_that_ask_the_same) {
   // Between a floor and a ceiling that it touches, in four places each: the hand pushes down and turns.
   const Metric<double> metric;

@@ -257,6 +257,7 @@ class ClosestFeaturesFollower {
   void solve(const Scene& scene, const Pose<Scalar>& pose, bool is_capped, Tick<MeshScalar>& tick) noexcept {
     constexpr int most_additions = 3;
     const Twist<Scalar> off = scene.idle_turns().motion_between(target_, pose);
+    if (!is_capped && bend_again(scene, pose, off, tick)) return;
     project(scene, off, is_capped, tick);
     for (int i = 0; i < most_additions && linearisation_.add_crossed(scene, trusted_step(scene, pose), tick); ++i) {
       project(scene, off, is_capped, tick);
@@ -286,6 +287,17 @@ class ClosestFeaturesFollower {
     } else {
       linearisation_.problem().project(scene.metric(), off, scene.margin());
     }
+  }
+
+  /// Solves with the forces of the last step; false where a projection is to find others.
+  bool bend_again(const Scene& scene, const Pose<Scalar>& pose, const Twist<Scalar>& off, Tick<MeshScalar>& tick) noexcept {
+    using Guess = typename Linearisation<ToolType, Solver>::Problem::Guess;
+    const Guess guess = linearisation_.problem().bend_again(scene.metric(), off, scene.margin());
+    if (guess == Guess::wrong) return false;
+    ++tick.work;
+    if (linearisation_.add_crossed(scene, trusted_step(scene, pose), tick)) return false;
+    if (guess == Guess::near) bend(scene, off, tick);
+    return true;
   }
 
   void bend(const Scene& scene, const Twist<Scalar>& off, Tick<MeshScalar>& tick) noexcept {

@@ -43,6 +43,7 @@ class Linearisation {
 
   void clear() noexcept {
     pairs_.clear();
+    problem_.forget();
     has_rows_ = false;
     planes_ = 0;
   }

@@ -21,10 +21,10 @@ class StepLimits {
     flight_ = std::numeric_limits<Scalar>::infinity();
     unhindered_ = 0;
   }
-  /// For the next tick, which goes on with the motion that this one left.
+  /// For the next tick, which goes on with the motion that this one left: a long slide half as fast again as it would begin.
   void carry_over() noexcept {
     const Scalar least = radius_ / 4000;
-    trust_ = std::clamp(trust_, least, radius_);
+    trust_ = std::clamp(trust_, least, is_long_slide() ? 3 * radius_ / 2 : radius_);
     flight_ = std::max(flight_, least);
   }
 
@@ -35,8 +35,9 @@ class StepLimits {
 
   /// After a motion that nothing stopped. Long slides pass wide faces: after some such motions the trust region outgrows its radius.
   void widen() noexcept {
-    const bool is_long_slide = trust_ >= radius_ && ++unhindered_ > 3;
-    trust_ = std::min(2 * trust_, is_long_slide ? 8 * radius_ : std::max(trust_, radius_));
+    const bool is_long = trust_ >= radius_;
+    if (is_long) ++unhindered_;
+    trust_ = std::min(2 * trust_, is_long && is_long_slide() ? 8 * radius_ : std::max(trust_, radius_));
     flight_ *= 2;
   }
   /// After one that was too long.
@@ -50,6 +51,8 @@ class StepLimits {
   void shorten(bool is_in_flight, Scalar length) noexcept { (is_in_flight ? flight_ : trust_) = length; }
 
  private:
+  bool is_long_slide() const noexcept { return unhindered_ > 3; }
+
   Scalar radius_ = Scalar(0);
   Scalar trust_ = Scalar(0);
   Scalar flight_ = Scalar(0);

@@ -11,6 +11,7 @@
 #include "feeler/qp/ldlt6.hpp"
 #include "feeler/qp/qp_solver.hpp"
 #include "feeler/qp/warm_start.hpp"
+#include "feeler/render/last_forces.hpp"
 #include "feeler/spatial/metric.hpp"
 
 namespace feeler {
@@ -117,18 +118,40 @@ class StepProblem {
     solve_relaxing(margin);
     is_free_ = solution_.active.empty();
     is_newton_ = true;
+    if (is_free_) last_forces_.clear();
     return solution_.step;
   }
-  /// After `project`: where contacts hold, the step with the Hessian of the Lagrangian.
+  /// After `project`, or a near guess: where contacts hold, the step with the Hessian of the Lagrangian.
   const Vector6<Scalar>& bend(const Metric<Scalar>& metric, const Twist<Scalar>& graphic_from_haptic, Scalar margin) noexcept {
     if (is_free_) return solution_.step;
     projection_ = solution_;
-    set_lagrangian_hessian(metric, graphic_from_haptic);
+    set_lagrangian(metric, graphic_from_haptic);
     solve_relaxing(margin, WarmStart(projection_));
     // Without its rows the curvature they were given means nothing.
     if (solution_.active.empty()) solution_ = projection_;
+    remember_forces();
     return solution_.step;
   }
+  /// What the forces of the last step are worth in the next one.
+  enum class Guess {
+    wrong,  ///< a contact that held the tool is gone, none does now, or not all rows can have the margin: to be projected
+    near,   ///< as good as a projection, as other contacts hold it, or with other forces: to be bent
+    right,  ///< the step is what `bend` would find
+  };
+  /// Both at once, with the forces of the last step in place of those of a projection (sequential quadratic programming).
+  Guess bend_again(const Metric<Scalar>& metric, const Twist<Scalar>& graphic_from_haptic, Scalar margin) noexcept {
+    if (last_forces_.empty() || !last_forces_.find(rows_, solution_.active)) return Guess::wrong;
+    load_rows(margin);
+    projection_ = solution_;
+    set_lagrangian(metric, graphic_from_haptic);
+    if (solve_from(WarmStart(projection_)) != QpStatus::optimal || solution_.active.empty()) return Guess::wrong;
+    is_free_ = false;
+    if (!has_forces_like(projection_)) return Guess::near;
+    remember_forces();
+    return Guess::right;
+  }
+  /// Knows nothing of earlier steps.
+  void forget() noexcept { last_forces_.clear(); }
   /// Whether no contact holds the tool: the last `project` was not stopped by any row.
   bool is_free() const noexcept { return is_free_; }
   /// Whether the last `bend` had the Hessian of the Lagrangian whole: else steps shrink by a ratio only, and a short one is not the last.
@@ -145,6 +168,25 @@ class StepProblem {
 
  private:
   static std::size_t index(int i) noexcept { return std::size_t(i); }
+
+  /// Whether the last solution has the active rows of another, and their multipliers to an eighth of its largest.
+  bool has_forces_like(const QpSolution<Scalar>& other) const noexcept {
+    Scalar largest(0), change(0);
+    for (const auto& active : solution_.active) {
+      const auto before = std::find_if(other.active.begin(), other.active.end(), [&active](const auto& a) { return a.row == active.row; });
+      if (before == other.active.end()) return false;
+      largest = std::max(largest, active.multiplier);
+      change = std::max({change, active.multiplier - before->multiplier, before->multiplier - active.multiplier});
+    }
+    return solution_.active.size() == other.active.size() && 8 * change <= largest;
+  }
+
+  /// Where rows cannot have the margin only a projection knows which.
+  void remember_forces() noexcept {
+    const auto is_relaxed_row = [this](const auto& active) { return is_relaxed(active.row); };
+    if (std::any_of(solution_.active.begin(), solution_.active.end(), is_relaxed_row)) last_forces_.clear();
+    else last_forces_.remember(solution_.active, rows_);
+  }
 
   void load_rows(Scalar margin) noexcept {
     problem_.clear_rows();
@@ -204,8 +246,9 @@ class StepProblem {
   /// Across the active rows the step is fixed, so ½ρ(Jₖd − bₖ)² added for each changes nothing along them (augmented Lagrangian). Where H
   /// has negative curvature along the rows too, the tool is about to slip off: there part of the metric takes its place.
   [[gnu::flatten, gnu::noinline]]
-  void set_lagrangian_hessian(const Metric<Scalar>& metric, const Twist<Scalar>& e) noexcept {
+  void set_lagrangian(const Metric<Scalar>& metric, const Twist<Scalar>& e) noexcept {
     const Vector6<Scalar> base = metric.diagonal();
+    problem_.gradient = metric.gradient(e);
     // Summed before it is subtracted: of contacts between faces much cancels, and does so to the last bit.
     Matrix6<Scalar> curvature = Matrix6<Scalar>::Zero();
     for (const auto& active : solution_.active) rows_[active.row].add_curvature(active.multiplier, curvature);
@@ -259,6 +302,7 @@ class StepProblem {
   QpProblem<Scalar> problem_;
   QpSolution<Scalar> solution_;
   QpSolution<Scalar> projection_;
+  LastForces<Row> last_forces_;
   bool is_free_ = true;
   bool is_newton_ = true;
   FixedVector<Row, row_capacity> rows_;
