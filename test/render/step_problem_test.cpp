@@ -87,7 +87,7 @@ BOOST_AUTO_TEST_CASE(with_the_forces_of_the_last_step_steps_converge_quadratical
     BOOST_TEST_REQUIRE(problem.add(row, {0.0}));
     const Twist<double> graphic_from_haptic{point - hand, Eigen::Vector3d::Zero()};
     if (steps == 0) {
-      BOOST_TEST((problem.bend_again(metric, graphic_from_haptic, 0.0) == Problem::Guess::wrong));  // there is no last step
+      BOOST_TEST((problem.bend_again(metric, graphic_from_haptic, 0.0) == Problem::Guess::none));  // there is no last step
       problem.project(metric, graphic_from_haptic, 0.0);
       problem.bend(metric, graphic_from_haptic, 0.0);
     } else {
@@ -131,7 +131,7 @@ BOOST_AUTO_TEST_CASE(a_guess_of_the_forces_says_what_it_is_worth) {
 
   problem.clear();
   problem.add(floor, {0.0});
-  BOOST_TEST((problem.bend_again(metric, into(-1e-3, 1e-3), 0.0) == Guess::wrong));  // the wall is gone
+  BOOST_TEST((problem.bend_again(metric, into(-1e-3, 1e-3), 0.0) == Guess::none));  // the wall is gone
   solve(into(-1e-3, 1e-3));
   problem.clear();
   problem.add(wall, {0.0});
@@ -146,10 +146,10 @@ BOOST_AUTO_TEST_CASE(a_guess_of_the_forces_says_what_it_is_worth) {
   solve(into(-1e-3, 1e-3));
   problem.project(metric, into(-1e-3, -1e-3), 0.0);
   BOOST_TEST(problem.is_free());
-  BOOST_TEST((problem.bend_again(metric, into(-1e-3, 1e-3), 0.0) == Guess::wrong));  // it was free
+  BOOST_TEST((problem.bend_again(metric, into(-1e-3, 1e-3), 0.0) == Guess::none));  // it was free
   solve(into(-1e-3, 1e-3));
   problem.forget();
-  BOOST_TEST((problem.bend_again(metric, into(-1e-3, 1e-3), 0.0) == Guess::wrong));
+  BOOST_TEST((problem.bend_again(metric, into(-1e-3, 1e-3), 0.0) == Guess::none));
 }
 
 BOOST_AUTO_TEST_CASE(without_clearance_spare_rows_leave_the_tool_to_others_that_ask_the_same) {

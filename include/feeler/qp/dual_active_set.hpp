@@ -49,6 +49,7 @@ class DualActiveSet {
   }
 
   /// Starts from rows that are likely to be active.
+  [[gnu::noinline]]
   QpStatus solve(const Problem& problem, const WarmStart& start, Solution& solution) noexcept {
     solution.active.clear();
     solution.conflict.clear();

@@ -293,9 +293,9 @@ class ClosestFeaturesFollower {
   bool bend_again(const Scene& scene, const Pose<Scalar>& pose, const Twist<Scalar>& off, Tick<MeshScalar>& tick) noexcept {
     using Guess = typename Linearisation<ToolType, Solver>::Problem::Guess;
     const Guess guess = linearisation_.problem().bend_again(scene.metric(), off, scene.margin());
-    if (guess == Guess::wrong) return false;
+    if (guess == Guess::none) return false;
     ++tick.work;
-    if (linearisation_.add_crossed(scene, trusted_step(scene, pose), tick)) return false;
+    if (guess == Guess::wrong || linearisation_.add_crossed(scene, trusted_step(scene, pose), tick)) return false;
     if (guess == Guess::near) bend(scene, off, tick);
     return true;
   }

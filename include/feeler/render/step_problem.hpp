@@ -134,13 +134,14 @@ class StepProblem {
   }
   /// What the forces of the last step are worth in the next one.
   enum class Guess {
-    wrong,  ///< a contact that held the tool is gone, none does now, or not all rows can have the margin: to be projected
+    none,   ///< no contact held the tool, or one that did is gone: nothing was solved
+    wrong,  ///< no contact holds it now, or not all rows can have the margin: to be projected
     near,   ///< as good as a projection, as other contacts hold it, or with other forces: to be bent
     right,  ///< the step is what `bend` would find
   };
   /// Both at once, with the forces of the last step in place of those of a projection (sequential quadratic programming).
   Guess bend_again(const Metric<Scalar>& metric, const Twist<Scalar>& graphic_from_haptic, Scalar margin) noexcept {
-    if (last_forces_.empty() || !last_forces_.find(rows_, solution_.active)) return Guess::wrong;
+    if (last_forces_.empty() || !last_forces_.find(rows_, solution_.active)) return Guess::none;
     load_rows(margin);
     projection_ = solution_;
     set_lagrangian(metric, graphic_from_haptic);
