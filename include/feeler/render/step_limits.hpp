@@ -35,9 +35,9 @@ class StepLimits {
 
   /// After a motion that nothing stopped. Long slides pass wide faces: after some such motions the trust region outgrows its radius.
   void widen() noexcept {
-    const bool is_long = trust_ >= radius_;
-    if (is_long) ++unhindered_;
-    trust_ = std::min(2 * trust_, is_long && is_long_slide() ? 8 * radius_ : std::max(trust_, radius_));
+    const bool fills_radius = trust_ >= radius_;
+    if (fills_radius) ++unhindered_;
+    trust_ = std::min(2 * trust_, fills_radius && is_long_slide() ? 8 * radius_ : std::max(trust_, radius_));
     flight_ *= 2;
   }
   /// After one that was too long.

@@ -153,7 +153,7 @@ class StepProblem {
   }
   /// Knows nothing of earlier steps.
   void forget() noexcept { last_forces_.clear(); }
-  /// Whether no contact holds the tool: the last `project` was not stopped by any row.
+  /// Whether no contact holds the tool: the last `project` was not stopped by any row, nor a guess after it.
   bool is_free() const noexcept { return is_free_; }
   /// Whether the last `bend` had the Hessian of the Lagrangian whole: else steps shrink by a ratio only, and a short one is not the last.
   bool is_newton() const noexcept { return is_newton_; }
@@ -302,7 +302,7 @@ class StepProblem {
   Ldlt6<Scalar> factor_;
   QpProblem<Scalar> problem_;
   QpSolution<Scalar> solution_;
-  QpSolution<Scalar> projection_;
+  QpSolution<Scalar> projection_;  // or what is taken for one
   LastForces<Row> last_forces_;
   bool is_free_ = true;
   bool is_newton_ = true;
