@@ -2,6 +2,7 @@
 
 #include <boost/test/unit_test.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <initializer_list>
 #include <random>
@@ -9,6 +10,7 @@
 
 #include "feeler/proximity/separation.hpp"
 #include "feeler/spatial/pose.hpp"
+#include "feeler/tool/round_solids.hpp"
 #include "feeler/tool/tool_incidence.hpp"
 #include "support/random_tools.hpp"
 
@@ -157,6 +159,54 @@ BOOST_AUTO_TEST_CASE(a_box_on_a_spike_has_the_tip_in_its_face) {
   }
 }
 
+BOOST_AUTO_TEST_CASE(a_round_end_has_a_corner_in_its_face_however_many_facets_it_has) {
+  // An edge of the triangle leaves the end across its rim, hardly lower than the corner: of the two only the corner is as close as the shapes.
+  const double height = 0.04;
+  for (const int facets : {8, 16, 17, 24, 64, 128}) {
+    const auto tool = feeler::cylinder<double>(0.0264, 2 * height, facets);
+    for (const double gap : {1e-6, 1e-7, 8e-9, 0.0}) {
+      const Mesh mesh = mesh_of({{0.004, -0.001, -height - gap}, {-0.016, 0.032, -height - 1e-3}, {0.043, 0.002, -height - gap - 1.4e-7}}, {{0, 1, 2}});
+      const Found found = find(tool, mesh, 0, {});
+      BOOST_TEST_CONTEXT("facets " << facets << " gap " << gap) {
+        BOOST_TEST(std::abs(found.distance - gap) < 1e-12);
+        BOOST_TEST(found.count(FeaturePair::face_vertex) >= 1);
+        const auto least = std::min_element(found.rows.begin(), found.rows.end(), [](const auto& a, const auto& b) { return a.gap < b.gap; });
+        BOOST_TEST_REQUIRE(least != found.rows.end());
+        BOOST_TEST((least->kind == FeaturePair::face_vertex));
+        BOOST_TEST(std::abs(least->gap - gap) < 1e-15);
+      }
+    }
+  }
+}
+
+BOOST_AUTO_TEST_CASE(a_round_end_flat_on_a_triangle_stands_on_rows_all_around) {
+  const Mesh mesh = mesh_of({{-1, -1, 0}, {1, -1, 0}, {0, 1, 0}}, {{0, 1, 2}});
+  const double radius = 0.015, pi = std::acos(-1.0);
+  for (const int facets : {12, 16, 17, 32, 100, 128}) {
+    const auto tool = feeler::cylinder<double>(radius, 0.02, facets);
+    for (const double tilt : {0.0, 1e-6, 1e-4}) {
+      const Found found = find(tool, mesh, 0, at(Vector(0.01, -0.02, 0.01 + 1e-6 + radius * tilt), turn(tilt, Vector(std::cos(1.0), std::sin(1.0), 0))));
+      BOOST_TEST_CONTEXT("facets " << facets << " tilt " << tilt) {
+        BOOST_TEST(found.rows.size() >= std::min(facets, 12));
+        BOOST_TEST(found.count(FeaturePair::vertex_face) == found.rows.size());
+        std::vector<double> angles;
+        double least = 1;
+        for (const auto& row : found.rows) {
+          angles.push_back(std::atan2(row.arm.y(), row.arm.x()));
+          least = std::min(least, row.gap);
+        }
+        BOOST_TEST(std::abs(least - found.distance) < 1e-9);  // the lowest is among them
+        std::sort(angles.begin(), angles.end());
+        double widest = angles.front() + 2 * pi - angles.back();
+        for (std::size_t i = 1; i < angles.size(); ++i) widest = std::max(widest, angles[i] - angles[i - 1]);
+        // All of 16, or no farther apart than a sixteenth of a turn and what a facet takes to each side.
+        if (tilt <= 1e-6) BOOST_TEST(widest < 2 * pi / std::min(facets, 16) + (facets > 16 ? 2 * 2 * pi / facets : 1e-5));
+        BOOST_TEST(angles.size() == std::size_t(std::unique(angles.begin(), angles.end()) - angles.begin()));
+      }
+    }
+  }
+}
+
 BOOST_AUTO_TEST_CASE(edges_that_cross_give_one_row_along_their_common_normal) {
   // The box stands on an edge, across the ridge of the roof.
   const Mesh mesh = roof();
@@ -263,6 +313,24 @@ BOOST_AUTO_TEST_CASE(the_neighbour_of_a_ghost_that_the_patch_names_is_nearer) {
     }
   }
   BOOST_TEST(ghosts > 1000);
+}
+
+BOOST_AUTO_TEST_CASE(shapes_that_touch_have_a_row_as_close_as_they_are) {
+  constexpr unsigned seed = 9;
+  BOOST_TEST_MESSAGE("seed " << seed);
+  std::mt19937 bits(seed);
+  int touching = 0;
+  for (int i = 0; i < 20000; ++i) {
+    const auto tool = random_hull(bits, 4 + below(bits, 30));
+    const Eigen::Matrix3d corners = triangle_near(tool, bits, Shape::ordinary, magnitude(bits, -10, -8));
+    const Found found = find(tool, mesh_of({corners.col(0), corners.col(1), corners.col(2)}, {{0, 1, 2}}), 0, {}, true);
+    if (!(found.distance < 1e-8) || !(found.distance > 0)) continue;
+    ++touching;
+    double least = 1;
+    for (const auto& row : found.rows) least = std::min(least, row.gap);
+    BOOST_TEST(least <= 1.01 * found.distance + 3e-9);  // where two features hardly differ either will do
+  }
+  BOOST_TEST(touching > 1000);
 }
 
 BOOST_AUTO_TEST_CASE(the_rows_of_any_pair_are_separations_that_are_true_at_the_pose) {

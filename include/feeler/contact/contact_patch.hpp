@@ -22,7 +22,7 @@ namespace feeler {
 
 /// The rows of one pair.
 template <class Scalar, class Row = ContactRow<Scalar>>
-using PatchRows = FixedVector<Row, 12>;
+using PatchRows = FixedVector<Row, 24>;
 
 /// Finds the rows of a pair.
 ///
@@ -38,7 +38,7 @@ using PatchRows = FixedVector<Row, 12>;
 /// Of a swept tool the features are those of its core, and each gap is less by the radius. Where the closest features are points or lines,
 /// their row knows how the normal turns about them.
 ///
-/// All input in the tool frame. @cost O(vertices in the band), at most 16 of them, and the features at them
+/// All input in the tool frame. @cost O(vertices in the band), and the features at them
 template <ConvexTool Tool, class MeshScalar>
 class ContactPatch {
  public:
@@ -83,7 +83,7 @@ class ContactPatch {
     const Scalar close_enough = closest.distance + std::abs(closest.distance) / 1000 + seam_ + rounding_of(closest.distance);
     const bool is_met = std::any_of(rows.begin(), rows.end(), [&](const Row& row) { return row.gap <= close_enough; });
     // Overlapping shapes have no closest points: the deepest vertex may lie beside the triangle, where nothing holds it.
-    if (is_met || (closest.is_touching && !rows.empty())) return true;
+    if (is_met || (closest.is_touching && closest.distance < -seam_ && !rows.empty())) return true;
     if (!keep_ghost && !is_in_cone(closest)) {
       if (assumes_valleys_) add_concave_face(closest, rows);
       return !rows.empty();
@@ -106,7 +106,8 @@ class ContactPatch {
   }
 
  private:
-  static constexpr int near_capacity = 16;
+  static constexpr int near_capacity = 256;  // all vertices that a tool may have: one end of a cylinder has 128
+  static constexpr int most_on_face = 16;    // rows of vertices on the triangle
   // Features whose own normal differs more from the contact's belong to another part of the surface.
   static constexpr Scalar least_cosine = Scalar(9) / 10;
   static constexpr Scalar cone_tolerance = Scalar(1e-6);
@@ -172,14 +173,48 @@ class ContactPatch {
 
   void add_vertices_on_face(Rows& rows) noexcept {
     if (!has_face_ || !faces_tool_) return;
-    const Vector normal = side_ * face_normal_;
-    for (const int near : near_) {
-      const Vector vertex = tool_.vertex(near);
-      const Scalar gap = on_surface(normal.dot(vertex - corners_.col(0)));
-      if (std::abs(gap) > 2 * band_) continue;
-      Scalar room = std::numeric_limits<Scalar>::infinity();
-      for (int k = 0; k < 3; ++k) room = std::min(room, distance_inside<Scalar>(corners_.col(k), corners_.col((k + 1) % 3), vertex, face_normal_));
-      if (room >= -seam_) rows.push_back(row_of(FeaturePair::vertex_face, normal, vertex, gap, room));
+    if (near_.size() > most_on_face) return add_outer_vertices_on_face(rows);
+    for (const int vertex : near_) add_vertex_on_face(vertex, rows);
+  }
+  template <int capacity>
+  void add_vertex_on_face(int near, FixedVector<Row, capacity>& rows) const noexcept {
+    const Vector normal = side_ * face_normal_, vertex = tool_.vertex(near);
+    const Scalar gap = on_surface(normal.dot(vertex - corners_.col(0)));
+    if (std::abs(gap) > 2 * band_) return;
+    Scalar room = std::numeric_limits<Scalar>::infinity();
+    for (int k = 0; k < 3; ++k) room = std::min(room, distance_inside<Scalar>(corners_.col(k), corners_.col((k + 1) % 3), vertex, face_normal_));
+    if (room >= -seam_) rows.push_back(row_of(FeaturePair::vertex_face, normal, vertex, gap, room));
+  }
+
+  /// Of many vertices, as of a round end, the lowest and those that a small tilt to any side would make the lowest: on them the tool stands as on
+  /// all.
+  [[gnu::flatten, gnu::noinline]]
+  void add_outer_vertices_on_face(Rows& rows) noexcept {
+    FixedVector<Row, near_capacity> all;
+    for (const int vertex : near_) add_vertex_on_face(vertex, all);
+    if (all.size() <= most_on_face) {
+      for (const Row& row : all) rows.push_back(row);
+      return;
+    }
+    Scalar extent(0);
+    for (const Row& row : all) extent = std::max(extent, (row.arm - all[0].arm).norm());
+    constexpr Scalar cosine = Scalar(0.923879532511286756128L), sine = Scalar(0.382683432365089771728L);  // of a sixteenth of a turn
+    static_assert(most_on_face == 16);
+    Vector tilt = all[0].normal.unitOrthogonal() * (band_ / (16 * extent)), across = all[0].normal.cross(tilt);
+    std::bitset<std::size_t(near_capacity)> is_taken;
+    const auto take_lowest = [&](const Vector& tilted) {
+      const auto height = [&tilted](const Row& row) { return row.gap - tilted.dot(row.arm); };
+      const Row* const lowest = std::min_element(all.begin(), all.end(), [&height](const Row& a, const Row& b) { return height(a) < height(b); });
+      const auto i = std::size_t(lowest - all.begin());
+      if (!is_taken[i]) rows.push_back(*lowest);
+      is_taken.set(i);
+    };
+    take_lowest(Vector::Zero());
+    for (int side = 0; side < most_on_face; ++side) {
+      take_lowest(tilt);
+      const Vector turned = cosine * tilt + sine * across;
+      across = cosine * across - sine * tilt;
+      tilt = turned;
     }
   }
 
