@@ -8,6 +8,7 @@
 #include <limits>
 
 #include "feeler/contact/contact_row.hpp"
+#include "feeler/contact/outer_rows.hpp"
 #include "feeler/contact/swept_contact_row.hpp"
 #include "feeler/core/feature_incidence.hpp"
 #include "feeler/core/fixed_vector.hpp"
@@ -78,7 +79,7 @@ class ContactPatch {
       gather_near_vertices(closest);
       add_vertices_on_face(rows);
       if (near_.size() > 1) add_edges(rows);
-      if (near_.size() > 2) add_corners_on_faces(rows);
+      if (tool_.face_count() > 0 && near_.size() > 2) add_corners_on_faces(rows);
     }
     const Scalar close_enough = closest.distance + std::abs(closest.distance) / 1000 + seam_ + rounding_of(closest.distance);
     const bool is_met = std::any_of(rows.begin(), rows.end(), [&](const Row& row) { return row.gap <= close_enough; });
@@ -107,7 +108,6 @@ class ContactPatch {
 
  private:
   static constexpr int near_capacity = 256;  // all vertices that a tool may have: one end of a cylinder has 128
-  static constexpr int most_on_face = 16;    // rows of vertices on the triangle
   // Features whose own normal differs more from the contact's belong to another part of the surface.
   static constexpr Scalar least_cosine = Scalar(9) / 10;
   static constexpr Scalar cone_tolerance = Scalar(1e-6);
@@ -173,7 +173,7 @@ class ContactPatch {
 
   void add_vertices_on_face(Rows& rows) noexcept {
     if (!has_face_ || !faces_tool_) return;
-    if (near_.size() > most_on_face) return add_outer_vertices_on_face(rows);
+    if (tool_.vertex_count() > most_outer_rows && near_.size() > most_outer_rows) return add_outer_vertices_on_face(rows);
     for (const int vertex : near_) add_vertex_on_face(vertex, rows);
   }
   template <int capacity>
@@ -186,36 +186,12 @@ class ContactPatch {
     if (room >= -seam_) rows.push_back(row_of(FeaturePair::vertex_face, normal, vertex, gap, room));
   }
 
-  /// Of many vertices, as of a round end, the lowest and those that a small tilt to any side would make the lowest: on them the tool stands as on
-  /// all.
+  /// Of many vertices, as of a round end, those that hold it up.
   [[gnu::flatten, gnu::noinline]]
   void add_outer_vertices_on_face(Rows& rows) noexcept {
     FixedVector<Row, near_capacity> all;
     for (const int vertex : near_) add_vertex_on_face(vertex, all);
-    if (all.size() <= most_on_face) {
-      for (const Row& row : all) rows.push_back(row);
-      return;
-    }
-    Scalar extent(0);
-    for (const Row& row : all) extent = std::max(extent, (row.arm - all[0].arm).norm());
-    constexpr Scalar cosine = Scalar(0.923879532511286756128L), sine = Scalar(0.382683432365089771728L);  // of a sixteenth of a turn
-    static_assert(most_on_face == 16);
-    Vector tilt = all[0].normal.unitOrthogonal() * (band_ / (16 * extent)), across = all[0].normal.cross(tilt);
-    std::bitset<std::size_t(near_capacity)> is_taken;
-    const auto take_lowest = [&](const Vector& tilted) {
-      const auto height = [&tilted](const Row& row) { return row.gap - tilted.dot(row.arm); };
-      const Row* const lowest = std::min_element(all.begin(), all.end(), [&height](const Row& a, const Row& b) { return height(a) < height(b); });
-      const auto i = std::size_t(lowest - all.begin());
-      if (!is_taken[i]) rows.push_back(*lowest);
-      is_taken.set(i);
-    };
-    take_lowest(Vector::Zero());
-    for (int side = 0; side < most_on_face; ++side) {
-      take_lowest(tilt);
-      const Vector turned = cosine * tilt + sine * across;
-      across = cosine * across - sine * tilt;
-      tilt = turned;
-    }
+    take_outer_rows(all, band_ / 16, rows);
   }
 
   /// The triangle's own plane, where the lowest tool vertex is beside it, near, and every edge between them is a valley's.
