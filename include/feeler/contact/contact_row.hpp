@@ -103,6 +103,7 @@ struct ContactRow {
       case FeaturePair::vertex_face: add_chord(multiple, lower); break;
       case FeaturePair::face_vertex:
         add_chord(-multiple, lower);
+#pragma GCC unroll 3
         for (int j = 0; j < 3; ++j) {
           const int k = (j + 1) % 3, i = (j + 2) % 3;  // [n]×
           lower(3 + k, j) += multiple * normal[i];
@@ -113,9 +114,11 @@ struct ContactRow {
         add_chord(multiple, lower);
         const Scalar cosine = object_edge.dot(tool_edge);
         const Scalar scale = multiple / tool_edge.cross(object_edge).dot(normal);  // by the signed sine of the angle between the edges
+#pragma GCC unroll 3
         for (int j = 0; j < 3; ++j) {
           const Vector3<Scalar> turn = scale * (object_edge[j] * tool_edge - cosine * (Vector3<Scalar>::Unit(j) - normal[j] * normal));  // of B
           const Vector3<Scalar> carried = turn.cross(arm);
+#pragma GCC unroll 3
           for (int i = 0; i < 3; ++i) {
             lower(3 + j, i) += turn[i];
             lower(3 + std::max(i, j), 3 + std::min(i, j)) -= carried[i];
@@ -131,8 +134,10 @@ struct ContactRow {
   void add_chord(const Scalar& multiple, Matrix6<Scalar>& lower) const noexcept {
     const Vector3<Scalar> half = multiple * normal / 2;
     const Scalar height = 2 * half.dot(arm);
+#pragma GCC unroll 3
     for (int j = 0; j < 3; ++j) {
       lower(3 + j, 3 + j) -= height;
+#pragma GCC unroll 3
       for (int i = j; i < 3; ++i) lower(3 + i, 3 + j) += half[i] * arm[j] + half[j] * arm[i];
     }
   }

@@ -49,7 +49,7 @@ class InverseHessian {
     for (std::size_t j = 0; j < 6; ++j) {
       const Scalar scale = sqrt(d_inverse_[j]);
       for (std::size_t k = 0; k < 6; ++k)
-        w[j][k] = scale * (is_diagonal_ ? Scalar(j == k ? 1 : 0) : l_inverse_[j][k]);
+        w[j][k] = k < j && !is_diagonal_ ? Scalar(scale * l_inverse_[j][k]) : Scalar(k == j ? scale : Scalar(0));
     }
     return w;
   }
@@ -69,49 +69,59 @@ class InverseHessian {
     return is_definite;
   }
 
+  /// Compilers keep the factor in registers where they know every bound, and do not always unroll so far unasked.
   bool factorise() noexcept {
-    SixBySix<Scalar> l{};  // rows
+    SixBySix<Scalar> l;  // rows, before the diagonal
+    bool is_definite = true;
+#pragma GCC unroll 6
     for (std::size_t j = 0; j < 6; ++j) {
-      Six<Scalar> scaled{};  // row j of LD
       Scalar pivot = hessian_[j][j];
+#pragma GCC unroll 6
       for (std::size_t k = 0; k < j; ++k) {
-        scaled[k] = l[j][k];
+        const Scalar scaled = l[j][k];  // of LD
         l[j][k] *= d_inverse_[k];
-        pivot -= product(scaled[k], l[j][k]);
+        pivot -= product(scaled, l[j][k]);
       }
-      if (!is_pivot(pivot)) return false;
+      is_definite = is_definite & is_pivot(pivot);
       d_inverse_[j] = Scalar(1) / pivot;
+#pragma GCC unroll 6
       for (std::size_t i = j + 1; i < 6; ++i) {  // below the diagonal LD for now
         Scalar sum = hessian_[j][i];
+#pragma GCC unroll 6
         for (std::size_t k = 0; k < j; ++k) sum -= product(l[i][k], l[j][k]);
         l[i][j] = sum;
       }
     }
-    l_inverse_ = {};
+#pragma GCC unroll 6
     for (std::size_t j = 0; j < 6; ++j) {
-      l_inverse_[j][j] = Scalar(1);
+#pragma GCC unroll 6
       for (std::size_t i = j + 1; i < 6; ++i) {
         Scalar sum = -l[i][j];
+#pragma GCC unroll 6
         for (std::size_t k = j + 1; k < i; ++k) sum -= product(l[i][k], l_inverse_[k][j]);
         l_inverse_[i][j] = sum;
       }
     }
-    for (std::size_t j = 0; j < 6; ++j) {
-      for (std::size_t i = j; i < 6; ++i) {
-        Scalar sum(0);
-        for (std::size_t k = i; k < 6; ++k) {
-          sum += product(product(l_inverse_[k][i], d_inverse_[k]), l_inverse_[k][j]);
-        }
+#pragma GCC unroll 6
+    for (std::size_t i = 0; i < 6; ++i) {
+      Six<Scalar> scaled;  // column i of D⁻¹L⁻¹
+#pragma GCC unroll 6
+      for (std::size_t k = i + 1; k < 6; ++k) scaled[k] = product(l_inverse_[k][i], d_inverse_[k]);
+#pragma GCC unroll 6
+      for (std::size_t j = 0; j <= i; ++j) {
+        Scalar sum = j == i ? d_inverse_[i] : product(d_inverse_[i], l_inverse_[i][j]);
+#pragma GCC unroll 6
+        for (std::size_t k = i + 1; k < 6; ++k) sum += product(scaled[k], l_inverse_[k][j]);
         inverse_[i][j] = inverse_[j][i] = sum;
       }
     }
-    return true;
+    return is_definite;
   }
 
   Six<Scalar> diagonal_{};
   SixBySix<Scalar> hessian_{};
   SixBySix<Scalar> inverse_{};
-  SixBySix<Scalar> l_inverse_{};  // rows of L⁻¹, as `hessian_` where H is not diagonal
+  SixBySix<Scalar> l_inverse_{};  // rows of L⁻¹ before the diagonal, as `hessian_` where H is not diagonal
   Six<Scalar> d_inverse_{};
   bool is_diagonal_ = false;
 };

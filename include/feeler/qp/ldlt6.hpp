@@ -14,17 +14,21 @@ class Ldlt6 {
  public:
   /// Reads the lower triangle; false unless the matrix, less a diagonal, is positive definite and finite.
   bool factor(const Matrix6<Scalar>& h, const Vector6<Scalar>& less = Vector6<Scalar>::Zero()) noexcept {
+#pragma GCC unroll 6
     for (int j = 0; j < 6; ++j) {
       Vector6<Scalar> scaled = Vector6<Scalar>::Zero();  // row j of LD
       Scalar pivot = h(j, j) - less[j];
+#pragma GCC unroll 6
       for (int k = 0; k < j; ++k) {
         scaled[k] = l_(j, k) * d_[k];
         pivot -= scaled[k] * l_(j, k);
       }
       if (!(pivot > Scalar(0)) || !(pivot - pivot == Scalar(0))) return false;
       d_[j] = pivot;
+#pragma GCC unroll 6
       for (int i = j + 1; i < 6; ++i) {
         Scalar sum = h(i, j);
+#pragma GCC unroll 6
         for (int k = 0; k < j; ++k) sum -= l_(i, k) * scaled[k];
         l_(i, j) = sum / pivot;
       }

@@ -47,6 +47,7 @@ class StepProblem {
   bool add(const Row& row, const Standing& standing) noexcept {
     if (!rows_.push_back(row)) return false;
     standings_[index(rows_.size() - 1)] = standing;
+    is_relaxed_[index(rows_.size() - 1)] = false;
     return true;
   }
   /// Whether a row in the problem asks the same as another.
@@ -113,7 +114,11 @@ class StepProblem {
   /// The step that minimises f with its own Hessian: the way home, where no row holds.
   const Vector6<Scalar>& project(const Metric<Scalar>& metric, const Twist<Scalar>& graphic_from_haptic, Scalar margin) noexcept {
     load_rows(margin);
-    problem_.hessian = metric.homing_hessian(graphic_from_haptic);
+    if (metric.is_isotropic()) {
+      set_hessian(diagonal_of(metric.diagonal()));
+    } else {
+      problem_.hessian = metric.homing_hessian(graphic_from_haptic);
+    }
     problem_.gradient = metric.gradient(graphic_from_haptic);
     solve_relaxing(margin);
     is_free_ = solution_.active.empty();
@@ -161,7 +166,7 @@ class StepProblem {
   /// The smallest step that meets the rows.
   const Vector6<Scalar>& restore(const Metric<Scalar>& metric, Scalar margin) noexcept {
     load_rows(margin);
-    problem_.hessian = metric.hessian({});
+    set_hessian(diagonal_of(metric.diagonal()));
     problem_.gradient.setZero();
     solve_relaxing(margin);
     return solution_.step;
@@ -192,7 +197,7 @@ class StepProblem {
   void load_rows(Scalar margin) noexcept {
     problem_.clear_rows();
     for (const Row& row : rows_) problem_.add_row(row.gradient(), margin - row.gap);
-    is_relaxed_.fill(false);
+    std::fill_n(is_relaxed_.begin(), rows_.size(), false);
   }
 
   /// @param start  rows that are likely to be active
@@ -251,43 +256,61 @@ class StepProblem {
     const Vector6<Scalar> base = metric.diagonal();
     problem_.gradient = metric.gradient(e);
     // Summed before it is subtracted: of contacts between faces much cancels, and does so to the last bit.
-    Matrix6<Scalar> curvature = Matrix6<Scalar>::Zero();
+    Matrix6<Scalar> curvature;
+    set_lower(curvature, [](int, int) { return Scalar(0); });
     for (const auto& active : solution_.active) rows_[active.row].add_curvature(active.multiplier, curvature);
-    const Matrix6<Scalar> hessian = metric.hessian(e);
+    const Matrix3<Scalar> turns = metric.hessian_of_turns(e);
+    const auto lagrangian = [&](int i, int j) {
+      const Scalar hessian = j >= 3 ? turns(i - 3, j - 3) : i == j ? base[i] : Scalar(0);
+      return hessian - curvature(i, j);
+    };
     // Not much flatter than the metric: a flatter one makes steps that no linearisation can carry.
     const Vector6<Scalar> floor = base / Scalar(80);
     is_newton_ = true;
-    if (set_hessian([&](int i, int j) { return hessian(i, j) - curvature(i, j); }, floor)) return;
+    set_hessian(lagrangian);
+    if (factor_.factor(problem_.hessian, floor)) return;
 
-    Matrix6<Scalar> across = Matrix6<Scalar>::Zero();
+    Matrix6<Scalar> across;
+    set_lower(across, [](int, int) { return Scalar(0); });
     Vector6<Scalar> pull = Vector6<Scalar>::Zero();
     for (const auto& active : solution_.active) {
       const Vector6<Scalar>& row = problem_.rows[index(active.row)];
-      across += row * row.transpose();
+      set_lower(across, [&](int i, int j) { return across(i, j) + row[i] * row[j]; });
       pull += problem_.bounds[index(active.row)] * row;
     }
     for (const Regularisation& regular : regularisations) {
       const auto entry = [&](int i, int j) {
-        const Scalar sum = regular.share * (hessian(i, j) - curvature(i, j)) + regular.weight * across(i, j);
+        const Scalar sum = regular.share * lagrangian(i, j) + regular.weight * across(i, j);
         return i == j ? sum + (Scalar(1) - regular.share) * base[i] : sum;
       };
-      if (!set_hessian(entry, floor)) continue;
+      set_hessian(entry);
+      if (!factor_.factor(problem_.hessian, floor)) continue;
       problem_.gradient -= regular.weight * pull;
       is_newton_ = regular.share == Scalar(1);
       return;
     }
-    problem_.hessian = base.asDiagonal();
+    set_hessian(diagonal_of(base));
     is_newton_ = false;
   }
 
-  /// Sets the Hessian to `entry(i, j)`, i ≥ j, number by number; false where it is not positive definite less a diagonal, `floor`.
+  /// Entries of a diagonal matrix.
+  static auto diagonal_of(const Vector6<Scalar>& diagonal) noexcept {
+    return [diagonal](int i, int j) { return i == j ? diagonal[i] : Scalar(0); };
+  }
+  /// Sets the Hessian to `entry(i, j)`, i ≥ j.
   template <class Entry>
-  bool set_hessian(const Entry& entry, const Vector6<Scalar>& floor) noexcept {
+  void set_hessian(const Entry& entry) noexcept {
     auto& h = problem_.hessian;
+    set_lower(h, [&](int i, int j) { return h(j, i) = entry(i, j); });
+  }
+  /// Sets the lower triangle of a matrix, number by number.
+  template <class Entry>
+  static void set_lower(Matrix6<Scalar>& m, const Entry& entry) noexcept {
+#pragma GCC unroll 6
     for (int j = 0; j < 6; ++j) {
-      for (int i = j; i < 6; ++i) h(i, j) = h(j, i) = entry(i, j);
+#pragma GCC unroll 6
+      for (int i = j; i < 6; ++i) m(i, j) = entry(i, j);
     }
-    return factor_.factor(h, floor);
   }
 
   /// Stiffness across the active rows, and share of the Lagrangian in what is left to the metric; the first that will do is taken, where the

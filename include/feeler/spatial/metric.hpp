@@ -56,17 +56,19 @@ struct Metric {
   Matrix6<Scalar> hessian(const Twist<Scalar>& e) const noexcept {
     Matrix6<Scalar> h = Matrix6<Scalar>::Zero();
     h.template topLeftCorner<3, 3>() = translational.asDiagonal();
-    auto rotation = h.template bottomRightCorner<3, 3>();
+    h.template bottomRightCorner<3, 3>() = hessian_of_turns(e);
+    return h;
+  }
+  /// Its lower right block; in the others there is nothing but the translational weights.
+  Matrix3<Scalar> hessian_of_turns(const Twist<Scalar>& e) const noexcept {
     if (!is_isotropic()) {
       const Matrix3<Scalar> j = inverse_left_jacobian<Scalar>(e.angular);
-      rotation = j.transpose() * rotational.asDiagonal() * j;
-      return h;
+      return j.transpose() * rotational.asDiagonal() * j;
     }
     const Scalar angle_squared = e.angular.squaredNorm(), bend = logarithm_bend<Scalar>(angle_squared);
-    rotation = bend * e.angular * e.angular.transpose();
-    rotation.diagonal().array() += Scalar(1) - bend * angle_squared;
-    rotation *= rotational.x();
-    return h;
+    Matrix3<Scalar> h = bend * e.angular * e.angular.transpose();
+    h.diagonal().array() += Scalar(1) - bend * angle_squared;
+    return h * rotational.x();
   }
 
   /// Hessian of the quadratic that has this gradient and its minimum at −e, where the motion home ends: M, or Gauss–Newton's.
