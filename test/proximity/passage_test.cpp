@@ -203,6 +203,37 @@ BOOST_AUTO_TEST_CASE(a_sphere_that_spins_about_its_centre_and_a_capsule_that_spi
   }
 }
 
+BOOST_AUTO_TEST_CASE(a_plane_guessed_for_the_end_saves_queries_and_a_wrong_one_certifies_nothing) {
+  constexpr unsigned seed = 90;
+  BOOST_TEST_MESSAGE("seed " << seed);
+  std::mt19937 bits(seed);
+  const Clearance<double> clearance;
+  int queries = 0, queries_with_guess = 0, too_deep = 0;
+  for (int i = 0; i < 600; ++i) {
+    const auto scene = random_scene(bits, random_box(bits), Kind::rolling);
+    const auto moving = scene.random.moving();
+    const auto start = moving.frame_at(0), end = moving.frame_at(1);
+    const auto closest_at = [&](const auto& frame) {
+      return feeler::separation(scene.random.tool, moving.in_tool(scene.corners, frame), {}, clearance.touching);
+    };
+    const auto closest = closest_at(start);
+    PassedTriangle<double> triangle{scene.corners, start.rotation * closest.normal, closest.features, true};
+    int work = 0, work_with_guess = 0;
+    const bool is_free = !pass(moving, triangle, start, end, clearance, work).is_blocked;
+    triangle.last_normal = end.rotation * closest_at(end).normal;
+    const bool is_passed = !pass(moving, triangle, start, end, clearance, work_with_guess).is_blocked;
+    if (is_free) queries += work, queries_with_guess += work_with_guess;
+    const WideReal allowance = WideReal(clearance.allowance) * 1.01L;
+    too_deep += is_passed && scene.depth(1, 150, allowance) > allowance ? 1 : 0;
+    triangle.last_normal = random_direction(bits);
+    const auto passage = pass(moving, triangle, start, end, clearance, work);
+    too_deep += passage.time > 0 && scene.depth(passage.time, 150, allowance) > allowance ? 1 : 0;
+  }
+  BOOST_TEST_MESSAGE(queries << " queries, " << queries_with_guess << " with a guess");
+  BOOST_TEST(too_deep == 0);
+  BOOST_TEST(queries_with_guess < queries);
+}
+
 BOOST_AUTO_TEST_CASE(a_motion_with_clearance_is_free) {
   constexpr unsigned seed = 40;
   BOOST_TEST_MESSAGE("seed " << seed);

@@ -27,6 +27,7 @@ struct PassedTriangle {
   Vector3<Scalar> normal = Vector3<Scalar>::Zero();  ///< a plane known to separate at the start, or zero
   WitnessFeatures features;                          ///< of an earlier query, or empty
   bool is_exact = false;  ///< find the time of contact to `Clearance::resolution`, not to a sixteenth of the motion
+  Vector3<Scalar> last_normal = Vector3<Scalar>::Zero();  ///< of a plane likely to separate at the end, or zero
 };
 
 namespace detail {
@@ -149,6 +150,10 @@ Passage<typename Tool::Scalar> pass(const MovingTool<Tool>& moving, const Passed
   bool touches = is_known && plane.slack < 2 * clearance.touching;
   if (is_known && !(detail::held_part(moving, corners, plane, start, end, clearance.required(plane.slack), true).part < Scalar(1))) {
     return {end.time, false, plane.normal, warm};
+  }
+  if (is_known && triangle.last_normal.squaredNorm() > Scalar(0)) {
+    const Plane guess{triangle.last_normal, slack_at(triangle.last_normal, end)};
+    if (detail::turning_plane_holds(moving, corners, plane, start, guess, end, clearance.required(plane.slack))) return {end.time, false, guess.normal, warm};
   }
   Plane last = query(end, touches);
   if (last.slack > -std::numeric_limits<Scalar>::infinity()) {

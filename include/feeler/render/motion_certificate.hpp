@@ -135,7 +135,7 @@ class MotionCertificate {
     for (int i = 0; i < pairs.size(); ++i) {
       const auto& pair = pairs[i];
       if (pair.piece != piece || pair.is_beyond(far)) continue;
-      known.push_back({pair.triangle, {pair.corners_world.colwise() - moving.origin(), pair.normal, pair.features, true}, pair.slack < clearance.none()});
+      known.push_back({pair.triangle, {pair.corners_world.colwise() - moving.origin(), pair.normal, pair.features, true, pair.last_normal}, pair.slack < clearance.none()});
     }
     return Sweep<Piece, Order>(planes_[std::size_t(piece)], clearance)
         .certify(scene.object(), moving, {known.begin(), std::size_t(known.size())}, work, limit, until);
