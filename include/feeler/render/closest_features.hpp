@@ -43,6 +43,7 @@ class ClosestFeaturesFollower {
   Status follow(const Scene& scene, const Pose<Scalar>& target, Tick<MeshScalar>& tick) noexcept {
     target_ = target;
     turn_idly(scene, tick);
+    off_ = off_target(scene, pose_);
     const int idle_legs = tick.path.size();
     linearisation_.pairs().age(linearisation_.touching(scene), 4 * scene.trust_radius(), goes_on_);
     if (!goes_on_) limits_.reset(scene.trust_radius());
@@ -133,7 +134,9 @@ class ClosestFeaturesFollower {
       const bool is_held = is_taken_back && linearisation_.pairs().size() == known_pairs;  // one linearisation alone knows no more than the two
       if (came_to_nothing && (is_held || proposal.is_at_rest) && !is_worth_it(scene, proposal.motion)) return true;
       if (length <= resting) return proposal.is_settled && !proposal.is_capped;
-      const bool is_nearer = descends(scene, turns.moved(pose_, proposal.motion), proposal.restoration, came_to_nothing);
+      const Pose<Scalar> end = turns.moved(pose_, proposal.motion);
+      const Twist<Scalar> off_at_end = off_target(scene, end);
+      const bool is_nearer = descends(scene, off_at_end, proposal.restoration, came_to_nothing);
       came_to_nothing = false;
       if (!is_nearer) {
         limits_.narrow(std::min(limits_.trust(), length) / 4);
@@ -145,8 +148,14 @@ class ClosestFeaturesFollower {
         if (!linearisation_.admit(scene, result) && budget_.is_first_iteration()) limits_.shorten(linearisation_.is_empty(), length / 8);
       } else {
         const bool is_done = result.is_whole() && proposal.is_settled && !proposal.is_capped;
-        pose_ = is_done && proposal.is_home ? target_ : turns.moved(pose_, proposal.motion * result.time);
         if (result.time > Scalar(0)) {
+          if (result.time < Scalar(1)) {
+            pose_ = turns.moved(pose_, proposal.motion * result.time);
+            off_ = off_target(scene, pose_);
+          } else {
+            pose_ = is_done && proposal.is_home ? target_ : end;
+            off_ = off_at_end;
+          }
           tick.path.push_back(scene.tool_pose(pose_));
           linearisation_.pairs().approach(length * result.time);
         }
@@ -166,15 +175,12 @@ class ClosestFeaturesFollower {
     return false;
   }
 
-  /// What the optimisation minimises [m²].
-  Scalar energy_at(const Scene& scene, const Pose<Scalar>& pose) const noexcept {
-    return scene.metric().energy(scene.idle_turns().motion_between(target_, pose));
-  }
+  Twist<Scalar> off_target(const Scene& scene, const Pose<Scalar>& pose) const noexcept { return scene.idle_turns().motion_between(target_, pose); }
 
-  /// Whether a pose is nearer to the target than the certified one: `strictly`, or but for what it costs to win the margin back.
-  bool descends(const Scene& scene, const Pose<Scalar>& pose, Scalar restoration, bool strictly) const noexcept {
+  /// Whether a pose `off` the target is nearer to it than the certified one: `strictly`, or but for what it costs to win the margin back.
+  bool descends(const Scene& scene, const Twist<Scalar>& off, Scalar restoration, bool strictly) const noexcept {
     using std::sqrt;
-    const Scalar before = energy_at(scene, pose_), after = energy_at(scene, pose);
+    const Scalar before = scene.metric().energy(off_), after = scene.metric().energy(off);
     if (strictly) return after < before;
     return after <= before + 2 * restoration + scene.margin() * (sqrt(2 * before) + scene.margin());
   }
@@ -182,7 +188,8 @@ class ClosestFeaturesFollower {
   /// Whether a motion leads nearer to the target by more than a tenth of the margin is worth.
   bool is_worth_it(const Scene& scene, const Twist<Scalar>& motion) const noexcept {
     using std::sqrt;
-    const Scalar before = energy_at(scene, pose_), after = energy_at(scene, scene.idle_turns().moved(pose_, motion));
+    const Scalar before = scene.metric().energy(off_);
+    const Scalar after = scene.metric().energy(off_target(scene, scene.idle_turns().moved(pose_, motion)));
     return after < before - scene.margin() / 10 * sqrt(2 * before);
   }
 
@@ -197,10 +204,11 @@ class ClosestFeaturesFollower {
     for (int round = 0; round < rounds && !budget_.ends_motion(tick.work, round); ++round) {
       const bool is_measured = !(proposal.is_capped && linearisation_.carry_to(scene, pose, tick)) &&
                                linearise(scene, pose, round == 0, rounds > 1, !rests_on_assumption, tick);
-      solve(scene, pose, proposal.is_capped, tick);
+      const Twist<Scalar> off = round == 0 ? off_ : off_target(scene, pose);
+      solve(scene, pose, off, proposal.is_capped, tick);
       if (round == 0) proposal.restoration = problem.cost_of_restoration();
-      if (round > 0) keep_contacts(scene, pose, proposal.is_capped, tick);
-      if (previous > very_short(scene) && !proposal.is_capped && reconcile(scene, pose, tick) && round == 1) is_taken_back = true;
+      if (round > 0) keep_contacts(scene, pose, off, proposal.is_capped, tick);
+      if (previous > very_short(scene) && !proposal.is_capped && reconcile(scene, off, tick) && round == 1) is_taken_back = true;
       linearisation_.note_tight_pairs();
       linearisation_.learn_passed(scene, tick);
       auto step = Twist<Scalar>::from_vector(problem.solution().step);
@@ -254,9 +262,9 @@ class ClosestFeaturesFollower {
   }
 
   /// Solves for a step, with the rows of what it would cross.
-  void solve(const Scene& scene, const Pose<Scalar>& pose, bool is_capped, Tick<MeshScalar>& tick) noexcept {
+  /// @param off  where the linearised pose is, from the target; here and below
+  void solve(const Scene& scene, const Pose<Scalar>& pose, const Twist<Scalar>& off, bool is_capped, Tick<MeshScalar>& tick) noexcept {
     constexpr int most_additions = 3;
-    const Twist<Scalar> off = scene.idle_turns().motion_between(target_, pose);
     if (!is_capped && bend_again(scene, pose, off, tick)) return;
     project(scene, off, is_capped, tick);
     for (int i = 0; i < most_additions && linearisation_.add_crossed(scene, trusted_step(scene, pose), tick); ++i) {
@@ -266,8 +274,7 @@ class ClosestFeaturesFollower {
   }
 
   /// Solves again with rows that came late.
-  void project_again(const Scene& scene, const Pose<Scalar>& pose, bool is_capped, Tick<MeshScalar>& tick) noexcept {
-    const Twist<Scalar> off = scene.idle_turns().motion_between(target_, pose);
+  void project_again(const Scene& scene, const Twist<Scalar>& off, bool is_capped, Tick<MeshScalar>& tick) noexcept {
     project(scene, off, is_capped, tick);
     if (!is_capped) bend(scene, off, tick);
   }
@@ -279,7 +286,6 @@ class ClosestFeaturesFollower {
     return length > limits_.trust() ? step * (limits_.trust() / length) : step;
   }
 
-  /// @param off  where the linearised pose is, from the target
   void project(const Scene& scene, const Twist<Scalar>& off, bool is_capped, Tick<MeshScalar>& tick) noexcept {
     ++tick.work;
     if (is_capped) {
@@ -306,24 +312,24 @@ class ClosestFeaturesFollower {
   }
 
   /// Solves again with the contacts of the certified pose that the motion would break.
-  void keep_contacts(const Scene& scene, const Pose<Scalar>& pose, bool is_capped, Tick<MeshScalar>& tick) noexcept {
+  void keep_contacts(const Scene& scene, const Pose<Scalar>& pose, const Twist<Scalar>& off, bool is_capped, Tick<MeshScalar>& tick) noexcept {
     const auto& turns = scene.idle_turns();
     const auto whole = [&] { return turns.motion_between(pose_, turns.moved(pose, Twist<Scalar>::from_vector(problem().solution().step))); };
     if (!linearisation_.may_break()) return;
     linearisation_.release_kept();
     for (int round = 0; round < 2 && linearisation_.keep_broken(scene, whole()); ++round) {
-      project_again(scene, pose, is_capped, tick);
+      project_again(scene, off, is_capped, tick);
     }
   }
 
   /// Where a step goes back on the last one, each linearisation lacks what stopped the other: solves again with what stopped the last.
-  bool reconcile(const Scene& scene, const Pose<Scalar>& pose, Tick<MeshScalar>& tick) noexcept {
+  bool reconcile(const Scene& scene, const Twist<Scalar>& off, Tick<MeshScalar>& tick) noexcept {
     const Twist<Scalar>& last_step = linearisation_.stopped();
     const auto step = Twist<Scalar>::from_vector(problem().solution().step);
     const Metric<Scalar>& metric = scene.metric();
     if (!(metric.product(step, last_step) < -metric.energy(last_step) / 2)) return false;
     if (!linearisation_.keep_stops()) return false;
-    project_again(scene, pose, false, tick);
+    project_again(scene, off, false, tick);
     return true;
   }
 
@@ -334,6 +340,7 @@ class ClosestFeaturesFollower {
 
   Pose<Scalar> pose_;     // the certified pose
   Pose<Scalar> target_;   // the haptic pose
+  Twist<Scalar> off_;     // of the certified pose from it
   bool goes_on_ = false;  // the last tick left motion for this one
   WorkBudget budget_;
   StepLimits<Scalar> limits_;
