@@ -116,7 +116,8 @@ bool turning_plane_holds(const MovingTool<Tool>& moving, const Matrix3<typename 
 ///
 /// A plane that separates at both ends of a part of the motion, less its sagitta, separates in between; so does a plane that turns from
 /// one separating normal to another. From the start the motion advances by such parts until the end, or until parts get shorter
-/// than the resolution; turning planes are looked for by bisection.
+/// than the resolution; turning planes are looked for by bisection. A normal that is likely to separate at the
+/// end is tried before the triangle is measured there.
 /// @param work  grows by one for each distance query
 /// @cost  0 queries for a plane that holds, 1 to 4 as a rule, at most 27
 template <ConvexTool Tool>
