@@ -9,6 +9,7 @@
 
 #include "feeler/core/lanes.hpp"
 #include "feeler/qp/active_operators.hpp"
+#include "feeler/qp/held_minimum.hpp"
 #include "feeler/qp/inverse_hessian.hpp"
 #include "feeler/qp/problem.hpp"
 #include "feeler/qp/qp_solver.hpp"
@@ -55,7 +56,7 @@ class DualActiveSet {
     solution.conflict.clear();
     solution.iterations = 0;
     solution.step.setZero();
-    if (!inverse_.compute(problem.hessian)) return QpStatus::not_positive_definite;
+    if (!inverse_.factor(problem.hessian)) return QpStatus::not_positive_definite;
     std::copy_n(problem.gradient.data(), 6, gradient_.begin());
 
     is_careful_ = false;
@@ -63,6 +64,8 @@ class DualActiveSet {
     accepted_ = tolerance;
     // What rounding leaves of a row that is projected twice, or more.
     dependent_angle_ = std::max(Scalar(1e-8), Scalar(16 * std::numeric_limits<Scalar>::epsilon()));
+    if (!start.rows.empty() && is_right(problem, start, solution)) return QpStatus::optimal;
+    inverse_.invert();
     Outcome outcome = run(problem, start, solution);
     if (outcome == Outcome::in_doubt) outcome = run_with_care(problem, solution);
     if (!is_finite()) {  // nor was the input: no step is the only one that is sure to be finite
@@ -84,6 +87,22 @@ class DualActiveSet {
   enum class Entry { done, refused, infeasible, in_doubt };
 
   static std::size_t index(int i) noexcept { return std::size_t(i); }
+
+  /// Whether the rows to start from are the active ones: then that is all there is to do.
+  bool is_right(const Problem& problem, const WarmStart& start, Solution& solution) noexcept {
+    if (!guess_.find(problem, bounds_, start, inverse_, gradient_)) return false;
+    using std::isfinite;
+    x_ = guess_.x();
+    if (!isfinite(size_of(x_)) || scan_.measure(problem, bounds_, x_, accepted_)) return false;
+    const int count = start.rows.size();
+    Six residual, lacking;
+    for (int i = 0; i < count; ++i) slots_[index(i)] = start.rows[i];
+    if (is_off(count, [this](int i) -> const Six& { return guess_.normal(i); }, guess_.multipliers(), residual, lacking)) return false;
+    std::copy_n(x_.begin(), 6, solution.step.data());
+    for (int i = 0; i < count; ++i) solution.active.push_back({slots_[index(i)], guess_.multipliers()[index(i)]});
+    solution.iterations = 1;
+    return true;
+  }
 
   /// Starts again with operators from an orthogonal factor, and uses up most of the tolerance, so that rows
   /// that agree within it meet in more than a point.
@@ -232,26 +251,39 @@ class DualActiveSet {
     }
   }
 
-  /// Checks the active rows and the gradient afresh; where they are off, takes one step of Newton's method
-  /// and returns true.
-  bool refine() noexcept {
-    const Scalar rounding = rounding_at(x_);
+  /// Looks at the active rows and at the gradient afresh.
+  /// @param count     of active rows, in the first slots
+  /// @param residual  of the gradient
+  /// @param lacking   by how much x falls short of each active row
+  template <class NormalOf, class Multipliers>
+  bool is_off(int count, const NormalOf& normal_of, const Multipliers& multipliers, Six& residual, Six& lacking) const noexcept {
     const Six bent = inverse_.hessian_times(x_);
-    Six residual, lacking{};  // of the gradient, and of the rows
-    Scalar size = size_of(bent) + size_of(gradient_);
-    bool is_off = false;
+    Scalar most_lacking(0);
     for (std::size_t j = 0; j < 6; ++j) residual[j] = bent[j] + gradient_[j];
-    for (int i = 0; i < operators_.used(); ++i) {
-      const Six& a = operators_.normal(i);
-      const Scalar& multiplier = multipliers_[index(i)];
-      const Scalar row_size = size_of(a);
-      for (std::size_t j = 0; j < 6; ++j) residual[j] -= detail::product(multiplier, a[j]);
-      size += detail::product(multiplier, row_size);
+    for (int i = 0; i < count; ++i) {
+      const Six& a = normal_of(i);
+      for (std::size_t j = 0; j < 6; ++j) residual[j] -= detail::product(multipliers[index(i)], a[j]);
       lacking[index(i)] = bounds_[slots_[index(i)]] - detail::dot(a, x_);
-      is_off = is_off || magnitude(lacking[index(i)]) > accepted_ + detail::product(rounding, row_size);
+      most_lacking = std::max(most_lacking, magnitude(lacking[index(i)]));
     }
-    is_off = is_off || size_of(residual) > Scalar(1024) * std::numeric_limits<Scalar>::epsilon() * size;
-    if (!is_off) return false;
+    const Scalar rounding_of_sum = 1024 * std::numeric_limits<Scalar>::epsilon(), off = size_of(residual);
+    Scalar size = size_of(bent) + size_of(gradient_);
+    if (most_lacking <= accepted_ && off <= rounding_of_sum * size) return false;
+
+    // What the sizes of the rows excuse is seldom needed.
+    const Scalar rounding = rounding_at(x_);
+    for (int i = 0; i < count; ++i) {
+      const Scalar row_size = size_of(normal_of(i));
+      size += detail::product(multipliers[index(i)], row_size);
+      if (magnitude(lacking[index(i)]) > accepted_ + detail::product(rounding, row_size)) return true;
+    }
+    return off > rounding_of_sum * size;
+  }
+
+  /// Where the active rows or the gradient are off, takes one step of Newton's method and returns true.
+  bool refine() noexcept {
+    Six residual, lacking{};
+    if (!is_off(operators_.used(), [this](int i) -> const Six& { return operators_.normal(i); }, multipliers_, residual, lacking)) return false;
 
     const Six across = operators_.step_of(lacking);
     const Six pulled = inverse_.hessian_times(across);
@@ -399,6 +431,7 @@ class DualActiveSet {
   }
 
   detail::InverseHessian<Scalar> inverse_;
+  detail::HeldMinimum<Scalar> guess_;
   Operators operators_;
   detail::RowScan<Scalar, lanes> scan_;
   typename Operators::Image image_{};  // of the vector last looked at

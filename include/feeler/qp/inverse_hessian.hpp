@@ -13,24 +13,55 @@
 namespace feeler::detail {
 
 /// H = LDLᵀ with L unit lower triangular, and H⁻¹ = L⁻ᵀD⁻¹L⁻¹; no square roots.
+///
+/// In two steps, as what is held by known rows needs L alone: `factor`, after which L⁻¹ and its transpose can be applied, and `invert`, after
+/// which H⁻¹ can.
 template <RealScalar Scalar>
 class InverseHessian {
  public:
   /// False, and nothing else is valid, unless H is positive definite.
-  bool compute(const Matrix6<Scalar>& h) noexcept {
-    is_diagonal_ = true;
+  /// @param h  in place until the last call
+  bool factor(const Matrix6<Scalar>& h) noexcept {
+    using std::abs;
+    hessian_ = h.data();
+    Scalar beside(0);
+#pragma GCC unroll 6
     for (int j = 0; j < 6; ++j) {
-      diagonal_[index(j)] = h(j, j);
-      for (int i = j + 1; i < 6; ++i) is_diagonal_ = is_diagonal_ & (h(i, j) == Scalar(0));
+#pragma GCC unroll 6
+      for (int i = j + 1; i < 6; ++i) beside += abs(h(i, j));
     }
-    if (is_diagonal_) return invert_diagonal();
-    for (int j = 0; j < 6; ++j) {
-      for (int i = 0; i < 6; ++i) hessian_[index(j)][index(i)] = h(i, j);
-    }
-    return factorise();
+    is_diagonal_ = beside == Scalar(0);
+    return is_diagonal_ ? invert_diagonal() : factorise();
+  }
+  /// After `factor`: from here on H⁻¹ is known, and L no longer.
+  void invert() noexcept {
+    if (!is_diagonal_) multiply_out();
   }
 
   bool is_diagonal() const noexcept { return is_diagonal_; }
+  /// D⁻¹
+  const Six<Scalar>& inverse_pivots() const noexcept { return d_inverse_; }
+  /// L⁻¹·v
+  Six<Scalar> solve_lower(Six<Scalar> v) const noexcept {
+    if (is_diagonal_) return v;
+#pragma GCC unroll 6
+    for (std::size_t i = 1; i < 6; ++i) {
+#pragma GCC unroll 6
+      for (std::size_t k = 0; k < i; ++k) v[i] -= product(lower_[i][k], v[k]);
+    }
+    return v;
+  }
+  /// L⁻ᵀ·v
+  Six<Scalar> solve_upper(Six<Scalar> v) const noexcept {
+    if (is_diagonal_) return v;
+#pragma GCC unroll 6
+    for (std::size_t below = 1; below < 6; ++below) {
+      const std::size_t i = 5 - below;
+#pragma GCC unroll 6
+      for (std::size_t k = i + 1; k < 6; ++k) v[i] -= product(lower_[k][i], v[k]);
+    }
+    return v;
+  }
   /// H⁻¹ where it is diagonal, and where it is not.
   const Six<Scalar>& diagonal() const noexcept { return d_inverse_; }
   const SixBySix<Scalar>& matrix() const noexcept { return inverse_; }
@@ -40,7 +71,9 @@ class InverseHessian {
   }
   /// H·v
   Six<Scalar> hessian_times(const Six<Scalar>& v) const noexcept {
-    return is_diagonal_ ? multiply(diagonal_, v) : multiply(hessian_, v);
+    Six<Scalar> image;
+    for (std::size_t j = 0; j < 6; ++j) image[j] = is_diagonal_ ? product(entry(j, j), v[j]) : dot_of_six<Scalar>(hessian_ + 6 * j, v);
+    return image;
   }
   /// Rows of W = D^(−½)L⁻¹: H⁻¹ = WᵀW.
   SixBySix<Scalar> root() const noexcept {
@@ -49,13 +82,13 @@ class InverseHessian {
     for (std::size_t j = 0; j < 6; ++j) {
       const Scalar scale = sqrt(d_inverse_[j]);
       for (std::size_t k = 0; k < 6; ++k)
-        w[j][k] = k < j && !is_diagonal_ ? Scalar(scale * l_inverse_[j][k]) : Scalar(k == j ? scale : Scalar(0));
+        w[j][k] = k < j && !is_diagonal_ ? Scalar(scale * lower_[j][k]) : Scalar(k == j ? scale : Scalar(0));
     }
     return w;
   }
 
  private:
-  static std::size_t index(int i) noexcept { return std::size_t(i); }
+  const Scalar& entry(std::size_t i, std::size_t j) const noexcept { return hessian_[6 * j + i]; }
   static bool is_pivot(const Scalar& pivot) noexcept {
     return pivot > Scalar(0) && pivot < std::numeric_limits<Scalar>::max();
   }
@@ -63,65 +96,71 @@ class InverseHessian {
   bool invert_diagonal() noexcept {
     bool is_definite = true;
     for (std::size_t j = 0; j < 6; ++j) {
-      is_definite = is_definite & is_pivot(diagonal_[j]);
-      d_inverse_[j] = Scalar(1) / diagonal_[j];
+      is_definite = is_definite & is_pivot(entry(j, j));
+      d_inverse_[j] = Scalar(1) / entry(j, j);
     }
     return is_definite;
   }
 
-  /// Compilers keep the factor in registers where they know every bound, and do not always unroll so far unasked.
+  /// L and D. Compilers keep the factor in registers where they know every bound, and do not always unroll so far unasked.
   bool factorise() noexcept {
     SixBySix<Scalar> l;  // rows, before the diagonal
     bool is_definite = true;
 #pragma GCC unroll 6
     for (std::size_t j = 0; j < 6; ++j) {
-      Scalar pivot = hessian_[j][j];
+      Scalar pivot = entry(j, j);
 #pragma GCC unroll 6
       for (std::size_t k = 0; k < j; ++k) {
         const Scalar scaled = l[j][k];  // of LD
         l[j][k] *= d_inverse_[k];
         pivot -= product(scaled, l[j][k]);
+        lower_[j][k] = l[j][k];
       }
       is_definite = is_definite & is_pivot(pivot);
       d_inverse_[j] = Scalar(1) / pivot;
 #pragma GCC unroll 6
       for (std::size_t i = j + 1; i < 6; ++i) {  // below the diagonal LD for now
-        Scalar sum = hessian_[j][i];
+        Scalar sum = entry(i, j);
 #pragma GCC unroll 6
         for (std::size_t k = 0; k < j; ++k) sum -= product(l[i][k], l[j][k]);
         l[i][j] = sum;
       }
     }
+    return is_definite;
+  }
+
+  /// L⁻¹ in the place of L, and H⁻¹.
+  void multiply_out() noexcept {
+    const SixBySix<Scalar> l = lower_;
+    SixBySix<Scalar> l_inverse;  // rows, before the diagonal
 #pragma GCC unroll 6
     for (std::size_t j = 0; j < 6; ++j) {
 #pragma GCC unroll 6
       for (std::size_t i = j + 1; i < 6; ++i) {
         Scalar sum = -l[i][j];
 #pragma GCC unroll 6
-        for (std::size_t k = j + 1; k < i; ++k) sum -= product(l[i][k], l_inverse_[k][j]);
-        l_inverse_[i][j] = sum;
+        for (std::size_t k = j + 1; k < i; ++k) sum -= product(l[i][k], l_inverse[k][j]);
+        l_inverse[i][j] = lower_[i][j] = sum;
       }
     }
 #pragma GCC unroll 6
     for (std::size_t i = 0; i < 6; ++i) {
       Six<Scalar> scaled;  // column i of D⁻¹L⁻¹
 #pragma GCC unroll 6
-      for (std::size_t k = i + 1; k < 6; ++k) scaled[k] = product(l_inverse_[k][i], d_inverse_[k]);
+      for (std::size_t k = i + 1; k < 6; ++k) scaled[k] = product(l_inverse[k][i], d_inverse_[k]);
 #pragma GCC unroll 6
       for (std::size_t j = 0; j <= i; ++j) {
-        Scalar sum = j == i ? d_inverse_[i] : product(d_inverse_[i], l_inverse_[i][j]);
+        Scalar sum = j == i ? d_inverse_[i] : product(d_inverse_[i], l_inverse[i][j]);
 #pragma GCC unroll 6
-        for (std::size_t k = i + 1; k < 6; ++k) sum += product(scaled[k], l_inverse_[k][j]);
+        for (std::size_t k = i + 1; k < 6; ++k) sum += product(scaled[k], l_inverse[k][j]);
         inverse_[i][j] = inverse_[j][i] = sum;
       }
     }
-    return is_definite;
   }
 
-  Six<Scalar> diagonal_{};
-  SixBySix<Scalar> hessian_{};
+  const Scalar* hessian_ = nullptr;  // by columns
   SixBySix<Scalar> inverse_{};
-  SixBySix<Scalar> l_inverse_{};  // rows of L⁻¹ before the diagonal, as `hessian_` where H is not diagonal
+  SixBySix<Scalar> lower_{};  // rows before the diagonal of L, then of L⁻¹; where H is not diagonal
   Six<Scalar> d_inverse_{};
   bool is_diagonal_ = false;
 };

@@ -268,7 +268,7 @@ class StepProblem {
     const Vector6<Scalar> floor = base / Scalar(80);
     is_newton_ = true;
     set_hessian(lagrangian);
-    if (factor_.factor(problem_.hessian, floor)) return;
+    if (Ldlt6<Scalar>().factor(problem_.hessian, floor)) return;
 
     Matrix6<Scalar> across;
     set_lower(across, [](int, int) { return Scalar(0); });
@@ -284,7 +284,7 @@ class StepProblem {
         return i == j ? sum + (Scalar(1) - regular.share) * base[i] : sum;
       };
       set_hessian(entry);
-      if (!factor_.factor(problem_.hessian, floor)) continue;
+      if (!Ldlt6<Scalar>().factor(problem_.hessian, floor)) continue;
       problem_.gradient -= regular.weight * pull;
       is_newton_ = regular.share == Scalar(1);
       return;
@@ -322,7 +322,6 @@ class StepProblem {
       {{8, 1}, {64, 1}, {1024, 1}, {64, Scalar(15) / 16}, {64, Scalar(3) / 4}, {64, Scalar(1) / 2}, {64, Scalar(1) / 4}}};
 
   Solver solver_;
-  Ldlt6<Scalar> factor_;
   QpProblem<Scalar> problem_;
   QpSolution<Scalar> solution_;
   QpSolution<Scalar> projection_;  // or what is taken for one

@@ -1,0 +1,84 @@
+// The minimum of a quadratic where known rows hold with equality.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+
+#include "feeler/core/lanes.hpp"
+#include "feeler/core/scalar.hpp"
+#include "feeler/qp/inverse_hessian.hpp"
+#include "feeler/qp/problem.hpp"
+#include "feeler/qp/six.hpp"
+#include "feeler/qp/warm_start.hpp"
+
+namespace feeler::detail {
+
+/// min ½ xᵀHx + gᵀx subject to aᵢ·x = bᵢ for up to six rows, with their multipliers.
+///
+/// With H = LDLᵀ and yᵢ = L⁻¹aᵢ the multipliers solve YᵀD⁻¹Y·λ = b + YᵀD⁻¹L⁻¹g: H needs no inverse, and the rows no operators.
+/// Source: J. Nocedal, S. J. Wright, "Numerical Optimization" (2006), section 16.2, the Schur-complement method.
+template <RealScalar Scalar>
+class HeldMinimum {
+ public:
+  /// False, and nothing else is valid, where a row does not exist, where one all but depends on those before it, or where a multiplier is
+  /// negative.
+  /// @param bounds   of the rows of the problem [m]
+  /// @param hessian  factored, not inverted
+  bool find(const QpProblem<Scalar>& problem, const Scalar* bounds, const WarmStart& start, const InverseHessian<Scalar>& hessian,
+            const Six<Scalar>& gradient) noexcept {
+    const Six<Scalar>& d_inverse = hessian.inverse_pivots();
+    const Six<Scalar> home = hessian.solve_lower(gradient);
+    SixBySix<Scalar> y, scaled;  // L⁻¹a and D⁻¹L⁻¹a of each row
+    SixBySix<Scalar> l;          // of the Schur complement, rows before the diagonal
+    Six<Scalar> pivot_inverse;
+    std::size_t count = 0;
+    for (const int row : start.rows) {
+      if (row < 0 || row >= problem.row_count) return false;
+      Six<Scalar>& a = normals_[count];
+      for (int j = 0; j < 6; ++j) a[std::size_t(j)] = problem.rows.column(j)[row];
+      y[count] = hessian.solve_lower(a);
+      scaled[count] = multiply(d_inverse, y[count]);
+      const Scalar whole = dot(scaled[count], y[count]);
+      Scalar pivot = whole, sum = bounds[row] + dot(scaled[count], home);
+      Six<Scalar> ld;
+      for (std::size_t j = 0; j < count; ++j) {
+        ld[j] = dot(scaled[count], y[j]);
+        for (std::size_t k = 0; k < j; ++k) ld[j] -= product(ld[k], l[j][k]);
+        l[count][j] = ld[j] * pivot_inverse[j];
+        pivot -= product(ld[j], l[count][j]);
+        sum -= product(l[count][j], multipliers_[j]);
+      }
+      if (!(pivot > Scalar(independent) * whole)) return false;
+      pivot_inverse[count] = Scalar(1) / pivot;
+      multipliers_[count] = sum;
+      ++count;
+    }
+    Six<Scalar> force;  // D⁻¹L⁻¹(Σ λ a − g)
+    for (std::size_t j = 0; j < 6; ++j) force[j] = -product(d_inverse[j], home[j]);
+    for (std::size_t i = count; i-- > 0;) {
+      Scalar& multiplier = multipliers_[i];
+      multiplier *= pivot_inverse[i];
+      for (std::size_t k = i + 1; k < count; ++k) multiplier -= product(l[k][i], multipliers_[k]);
+      if (!(multiplier >= Scalar(0))) return false;
+      for (std::size_t j = 0; j < 6; ++j) force[j] += product(multiplier, scaled[i][j]);
+    }
+    x_ = hessian.solve_upper(force);
+    return true;
+  }
+
+  const Six<Scalar>& x() const noexcept { return x_; }
+  /// Of the rows, in the order of the start.
+  const Six<Scalar>& multipliers() const noexcept { return multipliers_; }
+  const Six<Scalar>& normal(int i) const noexcept { return normals_[std::size_t(i)]; }
+
+ private:
+  /// Share of a row that has to be its own.
+  static constexpr double independent = 1e-3;
+
+  Six<Scalar> x_{};
+  Six<Scalar> multipliers_{};
+  SixBySix<Scalar> normals_{};
+};
+
+}  // namespace feeler::detail
