@@ -69,11 +69,16 @@ std::vector<double> microseconds(Solver& solver, const std::vector<feeler::qp_fa
   std::vector<std::vector<double>> times(problems.size());
   for (int round = 0; round < rounds; ++round) {
     feeler::qp_families::make_cold(solver);
+    solution.active.clear();
     for (std::size_t i = 0; i < problems.size(); ++i) {
       if (start != Start::warm) feeler::qp_families::make_cold(solver);
       if (start == Start::evicted) evict();
       const auto begin = Clock::now();
-      solver.solve(problems[i], solution);
+      if constexpr (feeler::qp_families::takes_warm_start<Solver>) {
+        solver.solve(problems[i], start == Start::warm ? feeler::WarmStart(solution) : feeler::WarmStart(), solution);
+      } else {
+        solver.solve(problems[i], solution);
+      }
       times[i].push_back(std::max(0.0, nanoseconds_between(begin, Clock::now()) - overhead) / 1000.0);
     }
   }

@@ -9,6 +9,7 @@
 #include "feeler/qp/interior_point.hpp"
 #include "feeler/qp/projected_gauss_seidel.hpp"
 #include "feeler/qp/textbook_active_set.hpp"
+#include "feeler/qp/warm_start.hpp"
 #ifdef FEELER_HAS_DAQP
 #include "feeler/adapter/daqp.hpp"
 #endif
@@ -77,10 +78,13 @@ template <class Solver>
 void make_cold(Solver& solver) {
   if constexpr (requires { solver.reset(); }) solver.reset();
 }
-/// Whether a solver begins where it ended.
+/// Whether a solver is told where to begin.
 template <class Solver>
-constexpr bool has_warm_start = requires(Solver& solver) {
-  solver.reset();
+constexpr bool takes_warm_start = requires(Solver& solver, const QpProblem<double>& problem, QpSolution<double>& solution) {
+  solver.solve(problem, WarmStart(solution), solution);
 };
+/// Whether it is, or begins where it ended.
+template <class Solver>
+constexpr bool has_warm_start = takes_warm_start<Solver> || requires(Solver& solver) { solver.reset(); };
 
 }  // namespace feeler::qp_families
