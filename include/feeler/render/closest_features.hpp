@@ -94,6 +94,13 @@ class ClosestFeaturesFollower {
     Scalar restoration = 0;      // energy that it may cost to win the margin back [m²]
   };
 
+  /// A step from the pose of linearisation.
+  struct Leg {
+    Twist<Scalar> step;
+    Pose<Scalar> end;
+    Twist<Scalar> motion;  // to the end, from the certified pose
+  };
+
   /// What is farther away cannot stop the next step [m].
   Scalar reach_of_step(const Scene& scene) const noexcept { return limits_.trust() + scene.margin(); }
 
@@ -207,20 +214,23 @@ class ClosestFeaturesFollower {
       const Twist<Scalar> off = round == 0 ? off_ : off_target(scene, pose);
       solve(scene, pose, off, proposal.is_capped, tick);
       if (round == 0) proposal.restoration = problem.cost_of_restoration();
-      if (round > 0) keep_contacts(scene, pose, off, proposal.is_capped, tick);
-      if (previous > very_short(scene) && !proposal.is_capped && reconcile(scene, off, tick) && round == 1) is_taken_back = true;
+      Leg leg = leg_of(scene, pose, solved_step());
+      if (round > 0) keep_contacts(scene, pose, off, proposal.is_capped, leg, tick);
+      if (previous > very_short(scene) && !proposal.is_capped && reconcile(scene, off, tick)) {
+        leg = leg_of(scene, pose, solved_step());
+        is_taken_back = is_taken_back || round == 1;
+      }
       linearisation_.note_tight_pairs();
       linearisation_.learn_passed(scene, tick);
-      auto step = Twist<Scalar>::from_vector(problem.solution().step);
-      const Scalar last = scene.length_of(step, pose);
+      const Scalar last = scene.length_of(leg.step, pose);
       if (round == 0) proposal.is_at_rest = is_measured && last < very_short(scene) / 100;
       const Scalar longest = limits_.longest(linearisation_.is_empty());
       // Where the optimum is flat a step may be of more than a turn, of which a pose would not know the direction.
-      if (!proposal.is_capped && last > 2 * longest) step = step * (2 * longest / last);
-      linearisation_.remember_stops(step);
+      if (!proposal.is_capped && last > 2 * longest) leg = leg_of(scene, pose, leg.step * (2 * longest / last));
+      linearisation_.remember_stops(leg.step);
       const Pose<Scalar> linearised = pose;
-      pose = turns.moved(pose, step);
-      proposal.motion = turns.motion_between(pose_, pose);
+      pose = leg.end;
+      proposal.motion = leg.motion;
       if (!proposal.is_capped) proposal.is_free = problem.is_free();
       const Scalar length = scene.length_of(proposal.motion, pose_);
       if (length > longest && !proposal.is_capped) {
@@ -279,9 +289,17 @@ class ClosestFeaturesFollower {
     if (!is_capped) bend(scene, off, tick);
   }
 
+  Twist<Scalar> solved_step() const noexcept { return Twist<Scalar>::from_vector(problem().solution().step); }
+
+  Leg leg_of(const Scene& scene, const Pose<Scalar>& pose, const Twist<Scalar>& step) const noexcept {
+    const auto& turns = scene.idle_turns();
+    const Pose<Scalar> end = turns.moved(pose, step);
+    return {step, end, turns.motion_between(pose_, end)};
+  }
+
   /// The step solved for, or as much of it as is trusted.
   Twist<Scalar> trusted_step(const Scene& scene, const Pose<Scalar>& pose) const noexcept {
-    const auto step = Twist<Scalar>::from_vector(problem().solution().step);
+    const Twist<Scalar> step = solved_step();
     const Scalar length = scene.length_of(step, pose);
     return length > limits_.trust() ? step * (limits_.trust() / length) : step;
   }
@@ -312,22 +330,20 @@ class ClosestFeaturesFollower {
   }
 
   /// Solves again with the contacts of the certified pose that the motion would break.
-  void keep_contacts(const Scene& scene, const Pose<Scalar>& pose, const Twist<Scalar>& off, bool is_capped, Tick<MeshScalar>& tick) noexcept {
-    const auto& turns = scene.idle_turns();
-    const auto whole = [&] { return turns.motion_between(pose_, turns.moved(pose, Twist<Scalar>::from_vector(problem().solution().step))); };
+  void keep_contacts(const Scene& scene, const Pose<Scalar>& pose, const Twist<Scalar>& off, bool is_capped, Leg& leg, Tick<MeshScalar>& tick) noexcept {
     if (!linearisation_.may_break()) return;
     linearisation_.release_kept();
-    for (int round = 0; round < 2 && linearisation_.keep_broken(scene, whole()); ++round) {
+    for (int round = 0; round < 2 && linearisation_.keep_broken(scene, leg.motion); ++round) {
       project_again(scene, off, is_capped, tick);
+      leg = leg_of(scene, pose, solved_step());
     }
   }
 
   /// Where a step goes back on the last one, each linearisation lacks what stopped the other: solves again with what stopped the last.
   bool reconcile(const Scene& scene, const Twist<Scalar>& off, Tick<MeshScalar>& tick) noexcept {
     const Twist<Scalar>& last_step = linearisation_.stopped();
-    const auto step = Twist<Scalar>::from_vector(problem().solution().step);
     const Metric<Scalar>& metric = scene.metric();
-    if (!(metric.product(step, last_step) < -metric.energy(last_step) / 2)) return false;
+    if (!(metric.product(solved_step(), last_step) < -metric.energy(last_step) / 2)) return false;
     if (!linearisation_.keep_stops()) return false;
     project_again(scene, off, false, tick);
     return true;

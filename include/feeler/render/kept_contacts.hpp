@@ -29,14 +29,14 @@ class KeptContacts {
   void release() noexcept {
     for (Contact& contact : contacts_) contact.is_in_problem = false;
   }
-  /// Adds to a problem, linearised where the motion has come `so_far`, the rows that the `whole` motion would break; false if it breaks none.
-  template <class Problem>
-  bool keep_broken(const Twist<Scalar>& so_far, const Displacement<Scalar>& whole, Scalar margin, Problem& problem) noexcept {
+  /// Adds to a problem, linearised where the motion has come `so_far()`, the rows that the `whole` motion would break; false if it breaks none.
+  template <class Problem, class SoFar>
+  bool keep_broken(const SoFar& so_far, const Displacement<Scalar>& whole, Scalar margin, Problem& problem) noexcept {
     bool breaks_any = false;
     for (Contact& contact : contacts_) {
       const Scalar enough = std::min(margin, contact.row.gap) / 10;
       if (contact.is_in_problem || !(contact.row.carried(whole).gap < enough)) continue;
-      contact.is_in_problem = problem.keep(contact.row.carried(so_far), contact.certified_gap);
+      contact.is_in_problem = problem.keep(contact.row.carried(so_far()), contact.certified_gap);
       breaks_any = breaks_any || contact.is_in_problem;
     }
     return breaks_any;

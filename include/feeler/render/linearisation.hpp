@@ -134,7 +134,8 @@ class Linearisation {
   bool may_break() const noexcept { return !kept_.empty(); }
   /// Adds the rows of the start that a motion from there would break; false if it breaks none.
   bool keep_broken(const Scene& scene, const Twist<Scalar>& motion) noexcept {
-    return kept_.keep_broken(scene.idle_turns().motion_between(start_, pose_), motion, scene.margin(), problem_);
+    const auto so_far = [&] { return scene.idle_turns().motion_between(start_, pose_); };
+    return kept_.keep_broken(so_far, motion, scene.margin(), problem_);
   }
 
   /// Remembers what stopped a step, but for what was assumed.
