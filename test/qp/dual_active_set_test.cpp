@@ -205,14 +205,17 @@ BOOST_AUTO_TEST_CASE(hundreds_of_rows_of_any_size_that_nearly_depend_are_solved_
   std::mt19937 bits(seed);
   DualActiveSet<double> solver;
   solver.tolerance = 1e-10;
-  Solution solution;
+  Solution cold, warm;
   for (int i = 0; i < 1500; ++i) {
     const double error = i % 3 == 0 ? 0 : feeler_test::magnitude(bits, -9, -3);
     const Problem problem = nearly_dependent_rows(bits, error);
-    BOOST_TEST((solver.solve(problem, solution) == QpStatus::optimal));
-    const auto kkt = feeler_test::kkt_residuals(feeler_test::WideProblem(problem), solution);
-    BOOST_TEST(kkt.stationarity < 1e-11L);
-    BOOST_TEST(std::max(kkt.violation, kkt.slackness) < 1e-9L);
+    BOOST_TEST((solver.solve(problem, cold) == QpStatus::optimal));
+    BOOST_TEST((solver.solve(problem, feeler::WarmStart(cold), warm) == QpStatus::optimal));
+    for (const Solution& solution : {cold, warm}) {
+      const auto kkt = feeler_test::kkt_residuals(feeler_test::WideProblem(problem), solution);
+      BOOST_TEST(kkt.stationarity < 1e-11L);
+      BOOST_TEST(std::max(kkt.violation, kkt.slackness) < 1e-9L);
+    }
   }
 }
 
