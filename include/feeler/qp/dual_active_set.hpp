@@ -28,7 +28,8 @@ namespace feeler {
 /// projected twice. The row to add maximises violation²/(aᵀPa) (dual steepest edge, `detail::RowScan`). An
 /// answer is optimal once a fresh look at all rows and at the gradient agrees, and infeasible once rows in
 /// conflict cancel; where rounding prevents both, everything is done again with operators from an orthogonal
-/// factor.
+/// factor. Where the rows to start from are the active ones, the same look confirms the minimum on them
+/// (`detail::HeldMinimum`), and no operator is made.
 ///
 /// Rows are met to `tolerance` [m]. Rows that make an angle below about 1e-8 rad with the span of the active
 /// ones count as dependent. The same input gives the same bits, with every number of lanes and,

@@ -41,15 +41,6 @@ Quaternion<Scalar> exp_rotation(const Vector3<Scalar>& rotation_vector) noexcept
   return Quaternion<Scalar>(cos(angle / 2), v.x(), v.y(), v.z());
 }
 
-/// Normalised. Of a product of unit quaternions, which is off by rounding, one step of Newton's method for 1/√x is all of it.
-template <class Scalar>
-Quaternion<Scalar> renormalized(const Quaternion<Scalar>& rotation) noexcept {
-  const Scalar excess = rotation.squaredNorm() - Scalar(1);
-  // The first term left out is 3/8 excess².
-  if (3 * excess * excess < std::numeric_limits<Scalar>::epsilon()) return Quaternion<Scalar>(rotation.coeffs() * (Scalar(1) - excess / 2));
-  return rotation.normalized();
-}
-
 /// Rotation vector [rad] of a unit quaternion, of length at most π; the inverse of `exp_rotation` within (-π, π).
 template <class Scalar>
 Vector3<Scalar> log_rotation(const Quaternion<Scalar>& rotation) noexcept {

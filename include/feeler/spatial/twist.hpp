@@ -42,7 +42,7 @@ struct Displacement {
 template <class Scalar>
 Pose<Scalar> moved(const Pose<Scalar>& pose, const Twist<Scalar>& motion) noexcept {
   return {pose.translation + motion.linear,
-          renormalized<Scalar>(exp_rotation(motion.angular) * pose.rotation)};
+          (exp_rotation(motion.angular) * pose.rotation).normalized()};
 }
 
 /// The motion from one pose to another: e = (p₁ − p₀, Log(R₁ R₀ᵀ)).
