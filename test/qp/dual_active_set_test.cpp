@@ -169,26 +169,21 @@ BOOST_AUTO_TEST_CASE(a_start_from_any_rows_ends_at_the_same_answer) {
 /// All rows hold at a step of size one, up to rounding of the bounds.
 /// @param error  of the directions, relative
 Problem nearly_dependent_rows(std::mt19937& bits, double error) {
-  const auto random_six = [&bits] {
-    feeler::Vector6<double> v;
-    for (int i = 0; i < 6; ++i) v[i] = feeler_test::unit(bits);
-    return v;
-  };
   Problem problem;
   feeler::Matrix6<double> root;
-  for (int j = 0; j < 6; ++j) root.col(j) = random_six();
+  for (int j = 0; j < 6; ++j) root.col(j) = feeler_test::random_six(bits);
   problem.hessian = root * root.transpose() + 1e-3 * feeler::Matrix6<double>::Identity();
-  const feeler::Vector6<double> feasible = random_six(), target = 3 * random_six();
+  const feeler::Vector6<double> feasible = feeler_test::random_six(bits), target = 3 * feeler_test::random_six(bits);
   problem.gradient = -(problem.hessian * target);
   std::array<feeler::Vector6<double>, 6> directions;
-  for (auto& direction : directions) direction = random_six().normalized();
+  for (auto& direction : directions) direction = feeler_test::random_six(bits).normalized();
   const int rank = 2 + feeler_test::below(bits, 5), rows = 30 + feeler_test::below(bits, 226);
   while (problem.row_count < rows) {
-    feeler::Vector6<double> row = error * random_six();
+    feeler::Vector6<double> row = error * feeler_test::random_six(bits);
     for (int j = 0; j < rank; ++j) row += feeler_test::unit(bits) * directions[std::size_t(j)];
     if (problem.row_count > 0 && feeler_test::below(bits, 3) == 0) {
       row = problem.rows[std::size_t(feeler_test::below(bits, problem.row_count))];
-      row = (feeler_test::below(bits, 2) == 0 ? -1 : 1) * row.normalized() + error * random_six();
+      row = (feeler_test::below(bits, 2) == 0 ? -1 : 1) * row.normalized() + error * feeler_test::random_six(bits);
     }
     if (row.norm() < 0.01) continue;
     const double norm = feeler_test::magnitude(bits, 0, 3.78);

@@ -2,13 +2,17 @@
 
 #include <boost/test/unit_test.hpp>
 
+#include <algorithm>
+#include <cmath>
 #include <limits>
 #include <random>
+#include <vector>
 
 #include <Eigen/Dense>
 
 #include "feeler/qp/dual_active_set.hpp"
 #include "support/qp_laws.hpp"
+#include "support/random_geometry.hpp"
 
 BOOST_AUTO_TEST_SUITE(held_minimum)
 
@@ -17,13 +21,8 @@ namespace {
 using Problem = feeler::QpProblem<double>;
 using Six = feeler::detail::Six<double>;
 using feeler::WarmStart;
+using feeler_test::random_six;
 using Vector6 = feeler::Vector6<double>;
-
-Vector6 random_six(std::mt19937& bits) {
-  Vector6 v;
-  for (int i = 0; i < 6; ++i) v[i] = feeler_test::unit(bits);
-  return v;
-}
 
 /// Rows in general position, with a Hessian that is diagonal or not.
 Problem random_problem(std::mt19937& bits, int rows, bool is_diagonal) {

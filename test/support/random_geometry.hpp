@@ -28,6 +28,11 @@ inline Eigen::Vector3d random_vector(std::mt19937& bits) {
   const double x = unit(bits), y = unit(bits), z = unit(bits);
   return {x, y, z};
 }
+inline Eigen::Matrix<double, 6, 1> random_six(std::mt19937& bits) {
+  Eigen::Matrix<double, 6, 1> v;
+  for (int i = 0; i < 6; ++i) v[i] = unit(bits);
+  return v;
+}
 inline Eigen::Vector3d random_direction(std::mt19937& bits) {
   for (;;) {
     const Eigen::Vector3d v = random_vector(bits);

@@ -1,7 +1,6 @@
 // The minimum of a quadratic where known rows hold with equality.
 #pragma once
 
-#include <algorithm>
 #include <array>
 #include <cstddef>
 
@@ -41,25 +40,22 @@ class HeldMinimum {
       y[count] = hessian.solve_lower(a);
       scaled[count] = multiply(d_inverse, y[count]);
       const Scalar whole = dot(scaled[count], y[count]);
-      Scalar pivot = whole, sum = bounds[row] + dot(scaled[count], home);
+      Scalar pivot = whole;
       Six<Scalar> ld;
       for (std::size_t j = 0; j < count; ++j) {
         ld[j] = dot(scaled[count], y[j]);
         for (std::size_t k = 0; k < j; ++k) ld[j] -= product(ld[k], l[j][k]);
         l[count][j] = ld[j] * pivot_inverse[j];
         pivot -= product(ld[j], l[count][j]);
-        sum -= product(l[count][j], multipliers_[j]);
       }
       if (!(pivot > Scalar(independent) * whole)) return false;
       pivot_inverse[count] = Scalar(1) / pivot;
-      multipliers_[count] = sum;
+      multipliers_[count] = bounds[row] + dot(scaled[count], home);
       ++count;
     }
-    for (std::size_t i = count; i-- > 0;) {
-      Scalar& multiplier = multipliers_[i];
-      multiplier *= pivot_inverse[i];
-      for (std::size_t k = i + 1; k < count; ++k) multiplier -= product(l[k][i], multipliers_[k]);
-      if (!(multiplier >= Scalar(0))) return false;
+    solve(l, pivot_inverse, count, multipliers_);
+    for (std::size_t i = 0; i < count; ++i) {
+      if (!(multipliers_[i] >= Scalar(0))) return false;
     }
     // Forces that cancel do so before they are scaled.
     Six<Scalar> force = home;
@@ -82,19 +78,25 @@ class HeldMinimum {
   void meet(const Scalar* bounds, const WarmStart& start, const InverseHessian<Scalar>& hessian, const SixBySix<Scalar>& scaled,
             const SixBySix<Scalar>& l, const Six<Scalar>& pivot_inverse) noexcept {
     const auto count = std::size_t(start.rows.size());
-    Six<Scalar> along;
-    for (std::size_t i = 0; i < count; ++i) {
-      along[i] = bounds[start.rows[int(i)]] - dot(normals_[i], x_);
-      for (std::size_t j = 0; j < i; ++j) along[i] -= product(l[i][j], along[j]);
-    }
-    Six<Scalar> push{};
+    Six<Scalar> along, push{};
+    for (std::size_t i = 0; i < count; ++i) along[i] = bounds[start.rows[int(i)]] - dot(normals_[i], x_);
+    solve(l, pivot_inverse, count, along);
     for (std::size_t i = count; i-- > 0;) {
-      along[i] *= pivot_inverse[i];
-      for (std::size_t k = i + 1; k < count; ++k) along[i] -= product(l[k][i], along[k]);
       for (std::size_t j = 0; j < 6; ++j) push[j] += product(along[i], scaled[i][j]);
     }
     push = hessian.solve_upper(push);
     for (std::size_t j = 0; j < 6; ++j) x_[j] += push[j];
+  }
+
+  /// S⁻¹·v of the first `count` numbers, S = LDLᵀ the Schur complement.
+  static void solve(const SixBySix<Scalar>& l, const Six<Scalar>& pivot_inverse, std::size_t count, Six<Scalar>& v) noexcept {
+    for (std::size_t i = 0; i < count; ++i) {
+      for (std::size_t j = 0; j < i; ++j) v[i] -= product(l[i][j], v[j]);
+    }
+    for (std::size_t i = count; i-- > 0;) {
+      v[i] *= pivot_inverse[i];
+      for (std::size_t k = i + 1; k < count; ++k) v[i] -= product(l[k][i], v[k]);
+    }
   }
 
   /// Share of a row that has to be its own.
