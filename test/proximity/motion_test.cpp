@@ -250,8 +250,10 @@ BOOST_AUTO_TEST_CASE(a_motion_that_goes_on_where_the_last_one_ended_has_the_limi
     cache.end(next, next.frame_at(1), 0);
     const double size = moving.radius() + moving.length();
     BOOST_TEST(std::abs(cache.limit(0) - least_height(normal, next, 1)) <= 1e-14 * size);
-    for (const auto& side : cache.sides())
-      BOOST_TEST(std::abs(side.least - least_height(side.normal, next, 1)) <= 1e-14 * size);
+    for (int axis = 0; axis < 3; ++axis) {
+      BOOST_TEST(std::abs(cache.box().lower(axis) - least_height(Vector::Unit(axis), next, 1)) <= 1e-14 * size);
+      BOOST_TEST(std::abs(cache.box().upper(axis) + least_height(-Vector::Unit(axis), next, 1)) <= 1e-14 * size);
+    }
   }
 }
 

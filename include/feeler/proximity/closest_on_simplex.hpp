@@ -19,18 +19,23 @@ struct Simplex {
   std::array<Scalar, 4> weights{};
   Vector3<Scalar> closest = Vector3<Scalar>::Zero();
 
-  /// Keeps the points with the positions given, in ascending order.
-  void keep(const std::array<int, 3>& positions, const std::array<Scalar, 3>& weights_kept, int count) noexcept {
-    size = count;
-    closest.setZero();
-    for (std::size_t to = 0; to < std::size_t(count); ++to) {
-      const auto from = std::size_t(positions[to]);
-      points[to] = points[from];
+  /// Keeps those of three points, at positions in ascending order, that have weight.
+  void keep(const std::array<int, 3>& positions, const std::array<Scalar, 3>& their_weights) noexcept {
+    std::size_t to = 0;
+    Vector3<Scalar> sum = Vector3<Scalar>::Zero();
+    for (std::size_t i = 0; i < 3; ++i) {
+      if (!(their_weights[i] > Scalar(0))) continue;
+      const auto from = std::size_t(positions[i]);
+      const Vector3<Scalar> point = points[from];
+      points[to] = point;
       tool_vertices[to] = tool_vertices[from];
       corners[to] = corners[from];
-      weights[to] = weights_kept[to];
-      closest += weights_kept[to] * points[to];
+      weights[to] = their_weights[i];
+      sum += their_weights[i] * point;
+      ++to;
     }
+    size = int(to);
+    closest = sum;
   }
 };
 
@@ -100,29 +105,16 @@ template <class Scalar>
 [[gnu::flatten, gnu::noinline]]
 bool reduce_to_closest(Simplex<Scalar>& simplex) noexcept {
   const auto& p = simplex.points;
-  const auto apply = [&simplex](std::array<int, 3> positions, const std::array<Scalar, 3>& weights) {
-    std::array<int, 3> kept{};
-    std::array<Scalar, 3> kept_weights{};
-    int count = 0;
-    for (std::size_t i = 0; i < 3; ++i) {
-      if (weights[i] > Scalar(0)) {
-        kept[std::size_t(count)] = positions[i];
-        kept_weights[std::size_t(count)] = weights[i];
-        ++count;
-      }
-    }
-    simplex.keep(kept, kept_weights, count);
-  };
   switch (simplex.size) {
     case 1:
       simplex.weights[0] = Scalar(1);
       simplex.closest = p[0];
       return true;
     case 2:
-      apply({0, 1, 1}, closest_on_segment(p[0], p[1]));
+      simplex.keep({0, 1, 1}, closest_on_segment(p[0], p[1]));
       return true;
     case 3:
-      apply({0, 1, 2}, closest_on_triangle(p[0], p[1], p[2]));
+      simplex.keep({0, 1, 2}, closest_on_triangle(p[0], p[1], p[2]));
       return true;
     default: break;
   }
@@ -149,7 +141,7 @@ bool reduce_to_closest(Simplex<Scalar>& simplex) noexcept {
     simplex.closest.setZero();
     return false;
   }
-  apply(positions, weights);
+  simplex.keep(positions, weights);
   return true;
 }
 

@@ -69,6 +69,8 @@ class MovingTool {
   Frame frame_at(Scalar time) const noexcept {
     return {time, pose_at(time).rotation.toRotationMatrix(), time * motion_.linear};
   }
+  /// At time 0, to the last bit where the pose is: a motion that begins where another ended has its last frame.
+  Frame frame_at_start() const noexcept { return {Scalar(0), pose_.rotation.toRotationMatrix(), Vector::Zero()}; }
 
   /// Corners relative to `origin()` in the tool frame.
   Matrix3<Scalar> in_tool(const Matrix3<Scalar>& corners, const Frame& frame) const noexcept {
@@ -82,6 +84,10 @@ class MovingTool {
   Scalar lowest(const Vector& normal, const Frame& frame) const noexcept {
     return lowest_in_tool(frame.rotation.transpose() * normal) + normal.dot(frame.shift) - swept_radius(tool_);
   }
+  /// The same along a world axis, or against it where `sign` is −1.
+  Scalar lowest_along_axis(int axis, Scalar sign, const Frame& frame) const noexcept {
+    return lowest_in_tool(sign * frame.rotation.row(axis).transpose()) + sign * frame.shift[axis] - swept_radius(tool_);
+  }
   /// Least height of the tool, or of its core, above its reference point along any vector in the tool frame [m].
   Scalar lowest_in_tool(const Vector& normal_tool) const noexcept {
     return lowest_above(tool_, reference_, normal_tool);
@@ -93,6 +99,13 @@ class MovingTool {
   /// tool that is symmetric |w×r| is known: its spin about its own axis or centre moves nothing.
   Scalar sagitta(const Vector& normal, Scalar duration) const noexcept {
     return duration * duration * motion_.angular.cross(normal).norm() * turning_ / 8;
+  }
+
+  /// `sagitta` along a world axis.
+  Scalar sagitta_along_axis(int axis, Scalar duration) const noexcept {
+    using std::sqrt;
+    const Scalar across = motion_.angular[(axis + 1) % 3], aside = motion_.angular[(axis + 2) % 3];
+    return duration * duration * sqrt(across * across + aside * aside) * turning_ / 8;
   }
 
   /// The same for an object point that strays from its chord as seen along a normal fixed to the tool.

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 
 #include "feeler/core/scalar.hpp"
 #include "feeler/proximity/clearance.hpp"
@@ -61,14 +62,15 @@ HeldPart<typename Tool::Scalar> held_part(const MovingTool<Tool>& moving, const 
                                           const MotionFrame<typename Tool::Scalar>& other, typename Tool::Scalar required,
                                           bool at_is_start) noexcept {
   using Scalar = typename Tool::Scalar;
+  using std::sqrt;
   const Scalar duration = other.time - at.time;
   const Scalar here = plane.slack - required;
   // Fixed to the tool: the tool's height does not change, the triangle's does.
   const Vector3<Scalar> turned = other.rotation * (at.rotation.transpose() * plane.normal);
   const Scalar height = plane.slack + highest(corners, plane.normal) - plane.normal.dot(at.shift);
   const Scalar there_tool = height + turned.dot(other.shift) - highest(corners, turned) - required;
-  const Scalar reach = std::max((corners.colwise() - at.shift).colwise().norm().maxCoeff(),
-                                (corners.colwise() - other.shift).colwise().norm().maxCoeff());
+  const Scalar reach = sqrt(std::max((corners.colwise() - at.shift).colwise().squaredNorm().maxCoeff(),
+                                     (corners.colwise() - other.shift).colwise().squaredNorm().maxCoeff()));
   const Scalar sagitta_tool = moving.sagitta_of_object(plane.normal, duration, reach);
   const Scalar part_tool = at_is_start ? first_root(here, there_tool, sagitta_tool) : first_root(there_tool, here, sagitta_tool);
   if (!(part_tool < Scalar(1))) return {Scalar(1), true};
@@ -149,8 +151,10 @@ Passage<typename Tool::Scalar> pass(const MovingTool<Tool>& moving, const Passed
   const bool is_known = triangle.normal.squaredNorm() > Scalar(0);
   Plane plane{triangle.normal, is_known ? slack_at(triangle.normal, start) : Scalar(0)};
   bool touches = is_known && plane.slack < 2 * clearance.touching;
-  if (is_known && !(detail::held_part(moving, corners, plane, start, end, clearance.required(plane.slack), true).part < Scalar(1))) {
-    return {end.time, false, plane.normal, warm};
+  Scalar part_from_start(0);  // over which a known plane holds
+  if (is_known) {
+    part_from_start = detail::held_part(moving, corners, plane, start, end, clearance.required(plane.slack), true).part;
+    if (!(part_from_start < Scalar(1))) return {end.time, false, plane.normal, warm};
   }
   if (is_known && triangle.last_normal.squaredNorm() > Scalar(0)) {
     const Plane guess{triangle.last_normal, slack_at(triangle.last_normal, end)};
@@ -178,7 +182,8 @@ Passage<typename Tool::Scalar> pass(const MovingTool<Tool>& moving, const Passed
   bool rolls = false;
   for (int step = 0; step < maximum_steps; ++step) {
     const Scalar whole = end.time - frame.time;
-    Scalar advance = whole * detail::held_part(moving, corners, plane, frame, end, required, true).part;
+    const bool is_found = is_known && step == 0;
+    Scalar advance = whole * (is_found ? part_from_start : detail::held_part(moving, corners, plane, frame, end, required, true).part);
     if (advance < whole && 3 * advance < whole) {
       // A sagitta falls with the square of the duration: over a shorter part the same plane holds for longer.
       const Scalar shorter = std::max(3 * advance, whole / 8);

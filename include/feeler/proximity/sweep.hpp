@@ -145,7 +145,7 @@ class Sweep {
 
   template <class MeshScalar>
   void begin(const TriangleMesh<MeshScalar>& mesh, const MovingTool<Tool>& moving, Scalar until) noexcept {
-    start_ = moving.frame_at(Scalar(0));
+    start_ = moving.frame_at_start();
     coarse_.begin(moving.origin() - mesh.bvh().origin().template cast<Scalar>(), Scalar(mesh.bounds().diagonal().norm()));
     planes_.age();
     planes_.with_tool().age();
@@ -249,10 +249,7 @@ class Sweep {
     end_ = moving.frame_at(time);
     planes_.end(moving, end_, clearance_.kept);
     planes_.with_tool().set_motion(moving, start_, end_, clearance_.kept);
-    const auto& sides = planes_.sides();
-    for (int k = 0; k < 3; ++k) {
-      coarse_.set_sides(k, sides[std::size_t(2 * k)].least - clearance_.kept, clearance_.kept - sides[std::size_t(2 * k + 1)].least);
-    }
+    for (int k = 0; k < 3; ++k) coarse_.set_sides(k, planes_.box().lower(k) - clearance_.kept, planes_.box().upper(k) + clearance_.kept);
     for (int i = 0; i < planes_.size(); ++i) coarse_.set_plane(i, planes_.normal(i), planes_.limit(i));
   }
 
