@@ -76,6 +76,7 @@ class ContactPatch {
     measure_triangle();
     // Farther away one row is enough: a step that comes near is linearised again.
     if (closest.distance <= band_ / 4) {
+      measure_edges();
       gather_near_vertices(closest);
       add_vertices_on_face(rows);
       if (near_.size() > 1) add_edges(rows);
@@ -139,16 +140,24 @@ class ContactPatch {
   }
 
   void measure_triangle() noexcept {
+    constexpr Scalar least_sine = 64 * std::numeric_limits<Scalar>::epsilon();
     const Vector edge0 = corners_.col(1) - corners_.col(0);
     const Vector edge1 = corners_.col(2) - corners_.col(0);
     const Vector cross = edge0.cross(edge1);
-    const Scalar area = cross.norm();
-    has_face_ = area > 64 * std::numeric_limits<Scalar>::epsilon() * edge0.norm() * edge1.norm();
+    const Scalar squared_area = cross.squaredNorm();
+    has_face_ = squared_area > least_sine * least_sine * edge0.squaredNorm() * edge1.squaredNorm();
     if (has_face_) {
-      face_normal_ = cross / area;
+      face_normal_ = cross / std::sqrt(squared_area);
       const Scalar cosine = face_normal_.dot(normal_);
       side_ = cosine < Scalar(0) ? Scalar(-1) : Scalar(1);
       faces_tool_ = side_ * cosine >= least_cosine;
+    }
+  }
+
+  void measure_edges() noexcept {
+    for (int k = 0; k < 3; ++k) {
+      edges_[index(k)] = corners_.col((k + 1) % 3) - corners_.col(k);
+      edge_lengths_[index(k)] = edges_[index(k)].norm();
     }
   }
 
@@ -182,8 +191,11 @@ class ContactPatch {
     const Scalar gap = on_surface(normal.dot(vertex - corners_.col(0)));
     if (std::abs(gap) > 2 * band_) return;
     Scalar room = std::numeric_limits<Scalar>::infinity();
-    for (int k = 0; k < 3; ++k) room = std::min(room, distance_inside<Scalar>(corners_.col(k), corners_.col((k + 1) % 3), vertex, face_normal_));
-    if (room >= -seam_) rows.push_back(row_of(FeaturePair::vertex_face, normal, vertex, gap, room));
+    for (int k = 0; k < 3; ++k) {
+      room = std::min(room, edges_[index(k)].cross(Vector(vertex - corners_.col(k))).dot(face_normal_) / edge_lengths_[index(k)]);
+      if (!(room >= -seam_)) return;
+    }
+    rows.push_back(row_of(FeaturePair::vertex_face, normal, vertex, gap, room));
   }
 
   /// Of many vertices, as of a round end, those that hold it up.
@@ -270,9 +282,9 @@ class ContactPatch {
     for (int k = 0; k < 3; ++k) {
       // An edge inside a flat part of the surface touches nothing.
       if (mesh_.topology().edge_convexity(triangle_, k) == Convexity::flat) continue;
-      const Vector start = corners_.col(k), span = corners_.col((k + 1) % 3) - start;
-      const Scalar length = span.norm();
-      if (length > Scalar(0)) object_edges.push_back({k, start, span, span / length, length});
+      const Vector& span = edges_[index(k)];
+      const Scalar length = edge_lengths_[index(k)];
+      if (length > Scalar(0)) object_edges.push_back({k, corners_.col(k), span, span / length, length});
     }
     if (object_edges.empty()) return;
     for (const int vertex : near_) {
@@ -464,6 +476,8 @@ class ContactPatch {
 
   int triangle_ = -1;
   Matrix3<Scalar> corners_;
+  std::array<Vector, 3> edges_;  // from each corner to the next
+  std::array<Scalar, 3> edge_lengths_;
   Vector normal_;
   bool has_face_ = false;
   bool faces_tool_ = false;

@@ -143,6 +143,13 @@ struct ContactRow {
   }
 };
 
+/// The gap of a row where a motion ends; all else that `carried` finds is left out.
+template <class Row>
+[[gnu::flatten, gnu::noinline]]
+typename Row::Scalar carried_gap(const Row& row, const Displacement<typename Row::Scalar>& motion) noexcept {
+  return row.carried(motion).gap;
+}
+
 /// C of a row, whole.
 template <class Row>
 Matrix6<typename Row::Scalar> curvature_of(const Row& row) noexcept {

@@ -24,7 +24,10 @@ int edge_towards(const TriangleMesh<MeshScalar>& mesh, int triangle, const Vecto
   int edge = -1;
   Scalar farthest = -seam;
   for (int k = 0; k < 3; ++k) {
-    const Scalar inside = distance_inside<Scalar>(corners.col(k), corners.col((k + 1) % 3), point, normal);
+    const Vector3<Scalar> side = corners.col((k + 1) % 3) - corners.col(k);
+    const Scalar scaled = side.cross(Vector3<Scalar>(point - corners.col(k))).dot(normal);
+    if (!(scaled < Scalar(0))) continue;
+    const Scalar inside = scaled / side.norm();
     if (!(inside < farthest)) continue;
     farthest = inside;
     edge = k;

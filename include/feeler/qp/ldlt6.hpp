@@ -12,12 +12,12 @@ namespace feeler {
 template <RealScalar Scalar>
 class Ldlt6 {
  public:
-  /// Reads the lower triangle; false unless the matrix, less a diagonal, is positive definite and finite.
-  bool factor(const Matrix6<Scalar>& h, const Vector6<Scalar>& less = Vector6<Scalar>::Zero()) noexcept {
+  /// Reads the lower triangle; false unless the matrix is positive definite and finite.
+  bool factor(const Matrix6<Scalar>& h) noexcept {
 #pragma GCC unroll 6
     for (int j = 0; j < 6; ++j) {
       Vector6<Scalar> scaled = Vector6<Scalar>::Zero();  // row j of LD
-      Scalar pivot = h(j, j) - less[j];
+      Scalar pivot = h(j, j);
 #pragma GCC unroll 6
       for (int k = 0; k < j; ++k) {
         scaled[k] = l_(j, k) * d_[k];

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "feeler/contact/contact_row.hpp"
 #include "feeler/core/fixed_vector.hpp"
 #include "feeler/core/scalar.hpp"
 #include "feeler/spatial/twist.hpp"
@@ -35,7 +36,7 @@ class KeptContacts {
     bool breaks_any = false;
     for (Contact& contact : contacts_) {
       const Scalar enough = std::min(margin, contact.row.gap) / 10;
-      if (contact.is_in_problem || !(contact.row.carried(whole).gap < enough)) continue;
+      if (contact.is_in_problem || !(carried_gap(contact.row, whole) < enough)) continue;
       contact.is_in_problem = problem.keep(contact.row.carried(so_far()), contact.certified_gap);
       breaks_any = breaks_any || contact.is_in_problem;
     }

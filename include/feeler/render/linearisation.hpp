@@ -171,11 +171,12 @@ class Linearisation {
 
   /// Takes the triangles that the contacts of a solution pass over to into the working set: the row of one they have left hides them.
   void learn_passed(const Scene& scene, Tick<MeshScalar>& tick) noexcept {
-    const Displacement<Scalar> step = Twist<Scalar>::from_vector(problem_.solution().step);
+    std::optional<Displacement<Scalar>> step;
     for (const auto& active : problem_.solution().active) {
       const Row& row = problem_.row(active.row);
       if (row.kind != FeaturePair::vertex_face || problem_.is_relaxed(active.row) || pairs_.full()) continue;
-      const Vector3<Scalar> point = pose_.translation + step.linear + row.carried(step).arm;
+      if (!step) step.emplace(Twist<Scalar>::from_vector(problem_.solution().step));
+      const Vector3<Scalar> point = pose_.translation + step->linear + row.carried(*step).arm;
       const int triangle = triangle_under(scene.object(), row.triangle, point);
       if (triangle < 0 || pairs_.find(row.piece, triangle) >= 0) continue;
       take_in_as_at_start(scene, row.piece, triangle, pairs_[pairs_.find(row.piece, row.triangle)].features, tick);

@@ -8,7 +8,7 @@
 #include "feeler/contact/contact_row.hpp"
 #include "feeler/core/fixed_vector.hpp"
 #include "feeler/core/scalar.hpp"
-#include "feeler/qp/ldlt6.hpp"
+#include "feeler/qp/definiteness.hpp"
 #include "feeler/qp/qp_solver.hpp"
 #include "feeler/qp/warm_start.hpp"
 #include "feeler/render/last_forces.hpp"
@@ -101,7 +101,7 @@ class StepProblem {
   }
   /// Whether a motion from the pose of linearisation leaves every row a gap of at least `least` [m], as far as the same features meet.
   bool leaves_gaps(const Displacement<Scalar>& motion, Scalar least) const noexcept {
-    return std::all_of(rows_.begin(), rows_.end(), [&](const Row& row) { return row.carried(motion).gap >= least; });
+    return std::all_of(rows_.begin(), rows_.end(), [&](const Row& row) { return carried_gap(row, motion) >= least; });
   }
   int row_count() const noexcept { return rows_.size(); }
   const Row& row(int k) const noexcept { return rows_[k]; }
@@ -146,9 +146,8 @@ class StepProblem {
   };
   /// Both at once, with the forces of the last step in place of those of a projection (sequential quadratic programming).
   Guess bend_again(const Metric<Scalar>& metric, const Twist<Scalar>& graphic_from_haptic, Scalar margin) noexcept {
-    if (last_forces_.empty() || !last_forces_.find(rows_, solution_.active)) return Guess::none;
+    if (last_forces_.empty() || !last_forces_.find(rows_, projection_.active)) return Guess::none;
     load_rows(margin);
-    projection_ = solution_;
     set_lagrangian(metric, graphic_from_haptic);
     if (solve_from(WarmStart(projection_)) != QpStatus::optimal || solution_.active.empty()) return Guess::wrong;
     is_free_ = false;
@@ -247,7 +246,7 @@ class StepProblem {
     return true;
   }
 
-  /// H = ∇²f − Σ λₖ ∇²sₖ, made positive definite where it matters least.
+  /// H = ∇²f − Σ λₖ ∇²sₖ with the forces of the projection, made positive definite where it matters least.
   ///
   /// Across the active rows the step is fixed, so ½ρ(Jₖd − bₖ)² added for each changes nothing along them (augmented Lagrangian). Where H
   /// has negative curvature along the rows too, the tool is about to slip off: there part of the metric takes its place.
@@ -258,22 +257,22 @@ class StepProblem {
     // Summed before it is subtracted: of contacts between faces much cancels, and does so to the last bit.
     Matrix6<Scalar> curvature;
     set_lower(curvature, [](int, int) { return Scalar(0); });
-    for (const auto& active : solution_.active) rows_[active.row].add_curvature(active.multiplier, curvature);
+    for (const auto& active : projection_.active) rows_[active.row].add_curvature(active.multiplier, curvature);
     const Matrix3<Scalar> turns = metric.hessian_of_turns(e);
     const auto lagrangian = [&](int i, int j) {
       const Scalar hessian = j >= 3 ? turns(i - 3, j - 3) : i == j ? base[i] : Scalar(0);
       return hessian - curvature(i, j);
     };
     // Not much flatter than the metric: a flatter one makes steps that no linearisation can carry.
-    const Vector6<Scalar> floor = base / Scalar(80);
+    const Vector6<Scalar> floor = base * (Scalar(1) / 80);
     is_newton_ = true;
     set_hessian(lagrangian);
-    if (Ldlt6<Scalar>().factor(problem_.hessian, floor)) return;
+    if (is_positive_definite(problem_.hessian, floor)) return;
 
     Matrix6<Scalar> across;
     set_lower(across, [](int, int) { return Scalar(0); });
     Vector6<Scalar> pull = Vector6<Scalar>::Zero();
-    for (const auto& active : solution_.active) {
+    for (const auto& active : projection_.active) {
       const Vector6<Scalar>& row = problem_.rows[index(active.row)];
       set_lower(across, [&](int i, int j) { return across(i, j) + row[i] * row[j]; });
       pull += problem_.bounds[index(active.row)] * row;
@@ -284,7 +283,7 @@ class StepProblem {
         return i == j ? sum + (Scalar(1) - regular.share) * base[i] : sum;
       };
       set_hessian(entry);
-      if (!Ldlt6<Scalar>().factor(problem_.hessian, floor)) continue;
+      if (!is_positive_definite(problem_.hessian, floor)) continue;
       problem_.gradient -= regular.weight * pull;
       is_newton_ = regular.share == Scalar(1);
       return;

@@ -32,8 +32,8 @@ Quaternion<Scalar> exp_rotation(const Vector3<Scalar>& rotation_vector) noexcept
   const Scalar fourth = angle_squared * angle_squared;
   if (fourth * fourth * angle_squared < Scalar(3715891200) * std::numeric_limits<Scalar>::epsilon()) {
     const Scalar& x = angle_squared;
-    const Scalar sine = Scalar(1) / 2 - x * (Scalar(1) / 48 - x * (Scalar(1) / 3840 - x * (Scalar(1) / 645120 - x / 185794560)));
-    const Scalar cosine = Scalar(1) - x * (Scalar(1) / 8 - x * (Scalar(1) / 384 - x * (Scalar(1) / 46080 - x / 10321920)));
+    const Scalar sine = Scalar(1) / 2 - x * (Scalar(1) / 48 - x * (Scalar(1) / 3840 - x * (Scalar(1) / 645120 - x * (Scalar(1) / 185794560))));
+    const Scalar cosine = Scalar(1) - x * (Scalar(1) / 8 - x * (Scalar(1) / 384 - x * (Scalar(1) / 46080 - x * (Scalar(1) / 10321920))));
     return Quaternion<Scalar>(cosine, sine * rotation_vector.x(), sine * rotation_vector.y(), sine * rotation_vector.z());
   }
   const Scalar angle = sqrt(angle_squared);
@@ -67,7 +67,7 @@ Scalar logarithm_bend(const Scalar& angle_squared) noexcept {
   const Scalar& x = angle_squared;
   // The series, where the first term left out, 691/1307674368000 x⁵, is under rounding.
   if (x * x * x * x * x < Scalar(157700000) * std::numeric_limits<Scalar>::epsilon()) {
-    return Scalar(1) / 12 + x * (Scalar(1) / 720 + x * (Scalar(1) / 30240 + x * (Scalar(1) / 1209600 + x / 47900160)));
+    return Scalar(1) / 12 + x * (Scalar(1) / 720 + x * (Scalar(1) / 30240 + x * (Scalar(1) / 1209600 + x * (Scalar(1) / 47900160))));
   }
   const Scalar half = sqrt(x) / 2;
   return (Scalar(1) - half / tan(half)) / x;
