@@ -401,4 +401,21 @@ BOOST_AUTO_TEST_CASE(
   }
 }
 
+BOOST_AUTO_TEST_CASE(what_rounding_of_poses_takes_is_not_halved_by_a_motion_that_begins_a_bit_below_it) {
+  for (const double rounding : {1e-8, 1e-7, 6e-6}) {
+    Clearance<double> clearance;
+    clearance.rounding = clearance.kept = rounding;
+    for (const double bit : {-1e-16, 0.0, 1e-16}) {
+      double gap = rounding * (1 + bit / 1e-16 * std::numeric_limits<double>::epsilon());
+      for (int motion = 0; motion < 1000; ++motion) {
+        const double required = clearance.required(gap);
+        BOOST_TEST_REQUIRE(required <= gap);
+        gap = required - bit;
+      }
+      BOOST_TEST(gap >= rounding - 1000 * clearance.allowance / 16);
+    }
+    BOOST_TEST(clearance.required(rounding / 4) == rounding / 8);  // a fit tighter than that is a fit all the same
+  }
+}
+
 BOOST_AUTO_TEST_SUITE_END()

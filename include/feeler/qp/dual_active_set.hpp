@@ -28,8 +28,8 @@ namespace feeler {
 /// projected twice. The row to add maximises violation²/(aᵀPa) (dual steepest edge, `detail::RowScan`). An
 /// answer is optimal once a fresh look at all rows and at the gradient agrees, and infeasible once rows in
 /// conflict cancel; where rounding prevents both, everything is done again with operators from an orthogonal
-/// factor. Where the rows to start from are the active ones, the same look confirms the minimum on them
-/// (`detail::HeldMinimum`), and no operator is made.
+/// factor. Where the rows to start from are the active ones, or the only row there is, the same look confirms the
+/// minimum on them (`detail::HeldMinimum`), and no operator is made.
 ///
 /// Rows are met to `tolerance` [m]. Rows that make an angle below about 1e-8 rad with the span of the active
 /// ones count as dependent. The same input gives the same bits, with every number of lanes and,
@@ -65,7 +65,10 @@ class DualActiveSet {
     accepted_ = tolerance;
     // What rounding leaves of a row that is projected twice, or more.
     dependent_angle_ = std::max(Scalar(1e-8), Scalar(16 * std::numeric_limits<Scalar>::epsilon()));
-    if (!start.rows.empty() && is_right(problem, start, solution)) return QpStatus::optimal;
+    WarmStart all;  // a row alone is most likely active
+    if (problem.row_count == 1) all.rows.push_back(0);
+    const bool is_told = !start.rows.empty();
+    if ((is_told || problem.row_count < 2) && is_right(problem, is_told ? start : all, solution)) return QpStatus::optimal;
     inverse_.invert();
     Outcome outcome = run(problem, start, solution);
     if (outcome == Outcome::in_doubt) outcome = run_with_care(problem, solution);
