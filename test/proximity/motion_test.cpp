@@ -245,8 +245,10 @@ BOOST_AUTO_TEST_CASE(a_motion_that_goes_on_where_the_last_one_ended_has_the_limi
     cache.begin(moving, moving.frame_at(0));
     cache.add(normal, moving, moving.frame_at(0), moving.frame_at(1), 0);
     cache.end(moving, moving.frame_at(ended), 0);
-    const feeler::MovingTool<feeler::Box<double>> next(random.tool, random.reference, moving.radius(), moving.pose_at(ended), random.motion);
-    cache.begin(next, next.frame_at(0));
+    feeler::Pose<double> pose = moving.pose_at(ended);
+    if (i % 5 == 4) pose.rotation = feeler::exp_rotation<double>(0.1 * random_direction(bits)) * pose.rotation;  // there, but turned
+    const feeler::MovingTool<feeler::Box<double>> next(random.tool, random.reference, moving.radius(), pose, random.motion);
+    cache.begin(next, next.frame_at_start());
     cache.end(next, next.frame_at(1), 0);
     const double size = moving.radius() + moving.length();
     BOOST_TEST(std::abs(cache.limit(0) - least_height(normal, next, 1)) <= 1e-14 * size);
