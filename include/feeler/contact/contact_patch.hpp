@@ -192,7 +192,7 @@ class ContactPatch {
     if (std::abs(gap) > 2 * band_) return;
     Scalar room = std::numeric_limits<Scalar>::infinity();
     for (int k = 0; k < 3; ++k) {
-      room = std::min(room, edges_[index(k)].cross(Vector(vertex - corners_.col(k))).dot(face_normal_) / edge_lengths_[index(k)]);
+      room = std::min(room, area_inside<Scalar>(corners_.col(k), edges_[index(k)], vertex, face_normal_) / edge_lengths_[index(k)]);
       if (!(room >= -seam_)) return;
     }
     rows.push_back(row_of(FeaturePair::vertex_face, normal, vertex, gap, room));
@@ -263,7 +263,8 @@ class ContactPatch {
       if (std::abs(gap) > 2 * band_) continue;
       Scalar room = std::numeric_limits<Scalar>::infinity();
       for (std::size_t i = 0; i < loop.size(); ++i) {
-        room = std::min(room, distance_inside<Scalar>(tool_.vertex(loop[i]), tool_.vertex(loop[(i + 1) % loop.size()]), corner, outward));
+        const Vector start = tool_.vertex(loop[i]), edge = tool_.vertex(loop[(i + 1) % loop.size()]) - start;
+        room = std::min(room, area_inside<Scalar>(start, edge, corner, outward) / edge.norm());
       }
       if (!(room >= -seam_) || !is_clear_of_neighbours_at_corner(k, Vector(-outward))) continue;
       rows.push_back(row_of(FeaturePair::face_vertex, Vector(-outward), corner, gap, room));

@@ -6,11 +6,10 @@
 
 namespace feeler {
 
-/// Signed distance of a point from a line, positive on the inner side of a loop around `normal` [m].
+/// Signed distance of a point from the line along an edge, positive on the inner side of a loop around `normal`, times the edge's length [m²].
 template <class Scalar>
-Scalar distance_inside(const Vector3<Scalar>& start, const Vector3<Scalar>& end, const Vector3<Scalar>& point, const Vector3<Scalar>& normal) noexcept {
-  const Vector3<Scalar> edge = end - start;
-  return edge.cross(Vector3<Scalar>(point - start)).dot(normal) / edge.norm();
+Scalar area_inside(const Vector3<Scalar>& start, const Vector3<Scalar>& edge, const Vector3<Scalar>& point, const Vector3<Scalar>& normal) noexcept {
+  return edge.cross(Vector3<Scalar>(point - start)).dot(normal);
 }
 
 /// The edge of a triangle that a point lies farthest beyond, seen along the triangle's normal, or -1 if it lies over the triangle.
@@ -25,9 +24,9 @@ int edge_towards(const TriangleMesh<MeshScalar>& mesh, int triangle, const Vecto
   Scalar farthest = -seam;
   for (int k = 0; k < 3; ++k) {
     const Vector3<Scalar> side = corners.col((k + 1) % 3) - corners.col(k);
-    const Scalar scaled = side.cross(Vector3<Scalar>(point - corners.col(k))).dot(normal);
-    if (!(scaled < Scalar(0))) continue;
-    const Scalar inside = scaled / side.norm();
+    const Scalar area = area_inside<Scalar>(corners.col(k), side, point, normal);
+    if (!(area < Scalar(0))) continue;
+    const Scalar inside = area / side.norm();
     if (!(inside < farthest)) continue;
     farthest = inside;
     edge = k;

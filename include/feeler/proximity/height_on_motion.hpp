@@ -72,9 +72,9 @@ class BoxOnMotion {
   }
   template <class Moving>
   void end(const Moving& moving, const MotionFrame<Scalar>& frame) noexcept {
-    for_each_side([&](int axis, Scalar sign, auto& side) {
-      side.end_at(moving.lowest_along_axis(axis, sign, frame), moving.sagitta_along_axis(axis, frame.time));
-    });
+    std::array<Scalar, 3> sagittas;
+    for (int axis = 0; axis < 3; ++axis) sagittas[index(axis)] = moving.sagitta_along_axis(axis, frame.time);
+    for_each_side([&](int axis, Scalar sign, auto& side) { side.end_at(moving.lowest_along_axis(axis, sign, frame), sagittas[index(axis)]); });
   }
   /// The least coordinate that a point of the tool has along an axis, and the largest [m].
   Scalar lower(int axis) const noexcept { return sides_[index(axis)][0].least; }

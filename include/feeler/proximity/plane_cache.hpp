@@ -62,10 +62,10 @@ class PlaneCache {
     return planes_[index(i)].parts_closely(height, clearance);
   }
 
-  /// Finds the heights at the start of a motion; they are known where the last one ended.
+  /// Finds the heights at the start of a motion; they are relative to where the tool is, so known where it is turned as at the end of the last one.
   template <class Moving>
   void begin(const Moving& moving, const MotionFrame<Scalar>& start) noexcept {
-    const bool goes_on = knows_heights_ && moving.origin() == end_ && start.rotation == axes_at_end_;
+    const bool goes_on = knows_heights_ && start.rotation == axes_at_end_;
     const auto begin = [&](auto& planes) { goes_on ? planes.go_on(shift_) : planes.begin(moving, start); };
     for (int i = 0; i < size_; ++i) begin(planes_[index(i)]);
     begin(box_);
@@ -75,7 +75,6 @@ class PlaneCache {
   void end(const Moving& moving, const MotionFrame<Scalar>& end, Scalar kept) noexcept {
     for (int i = 0; i < size_; ++i) planes_[index(i)].end(moving, end, kept);
     box_.end(moving, end);
-    end_ = moving.origin() + end.shift;
     axes_at_end_ = end.rotation;
     shift_ = end.shift;
     knows_heights_ = true;
@@ -102,10 +101,9 @@ class PlaneCache {
   int size_ = 0;
   std::array<Plane, capacity> planes_;
   BoxOnMotion<Scalar> box_;
-  bool knows_heights_ = false;  // of the tool at the end of the last motion
-  Vector3<Scalar> end_;         // where that is [m], and how it is turned
-  Matrix3<Scalar> axes_at_end_;
-  Vector3<Scalar> shift_;       // to there from where it began [m]
+  bool knows_heights_ = false;   // of the tool at the end of the last motion
+  Matrix3<Scalar> axes_at_end_;  // of the tool there
+  Vector3<Scalar> shift_;        // to there from where it began [m]
   FeatureCache features_;
   ToolPlanes<Scalar> with_tool_;
 };
