@@ -93,6 +93,23 @@ inline std::array<Number, sizeof(Group) / sizeof(Number)> in_lanes(const Group& 
   return numbers;
 }
 
+/// In one lane −1, else 0; nothing but 0 where there is no such lane.
+/// @param lane  from −8 to 8
+///
+/// A window on a row of numbers: of a comparison with the lane's number g++ 12 makes branches where registers have no comparison of wide integers.
+template <class Scalar, int lanes>
+inline Lanes<LaneBits<Scalar>, lanes> only_lane(int lane) noexcept {
+  constexpr int most = 8;
+  static constexpr auto marks = [] {
+    std::array<LaneBits<Scalar>, std::size_t(3 * most)> zeros_and_one{};
+    zeros_and_one[most] = -1;
+    return zeros_and_one;
+  }();
+  Lanes<LaneBits<Scalar>, lanes> group;
+  std::memcpy(&group, &marks[std::size_t(most - lane)], sizeof(group));
+  return group;
+}
+
 /// The group with another number in one lane; unchanged where there is no such lane.
 ///
 /// A number that is written alone and read in a group soon after makes processors wait.
@@ -102,11 +119,7 @@ inline Lanes<Scalar, lanes> with_lane(const Lanes<Scalar, lanes>& group, int lan
   if constexpr (lanes == 1) {
     return lane == 0 ? value : group;
   } else {
-    std::array<LaneBits<Scalar>, std::size_t(lanes)> numbers;
-    for (std::size_t i = 0; i < numbers.size(); ++i) numbers[i] = LaneBits<Scalar>(i);
-    using Numbers = Lanes<LaneBits<Scalar>, lanes>;
-    const auto is_it = std::bit_cast<Numbers>(numbers) == LaneBits<Scalar>(lane) + Numbers{};
-    return is_it ? spread<Lanes<Scalar, lanes>>(value) : group;
+    return only_lane<Scalar, lanes>(lane) ? spread<Lanes<Scalar, lanes>>(value) : group;
   }
 }
 

@@ -45,6 +45,7 @@ class ActiveOperators {
   /// Nothing active: P is H⁻¹.
   void reset(const InverseHessian<Scalar>& inverse) noexcept {
     used_ = 0;
+    is_behind_ = false;
     if (inverse.is_diagonal()) {
       for (int j = 0; j < 6; ++j) {
         Column& column = projector_[index(j)];
@@ -59,34 +60,41 @@ class ActiveOperators {
   int used() const noexcept { return used_; }
   const Six<Scalar>& normal(int slot) const noexcept { return normals_[index(slot)]; }
   /// Row of N*: the step that moves along this active row by one and along no other.
-  Six<Scalar> dual(int slot) const noexcept {
+  Six<Scalar> dual(int slot) noexcept {
+    catch_up();
     Six<Scalar> row;
     for (std::size_t j = 0; j < 6; ++j) row[j] = duals_[j][index(slot)];
     return row;
   }
-  SixBySix<Scalar> projector() const noexcept {
+  SixBySix<Scalar> projector() noexcept {
+    catch_up();
     SixBySix<Scalar> p;
     for (std::size_t j = 0; j < 6; ++j) std::copy_n(projector_[j].begin(), 6, p[j].begin());
     return p;
   }
 
-  void apply(const Six<Scalar>& v, Image& image) const noexcept {
+  /// Computes the images of a vector.
+  void apply(const Six<Scalar>& v) noexcept {
+    catch_up();
     SixGroups at;
     for (std::size_t j = 0; j < 6; ++j) at[j] = spread<Group>(v[j]);
-    multiply_columns(projector_, 6, at, image.step);
-    multiply_columns(duals_, used_, at, image.share);
+    multiply_columns(projector_, 6, at, image_.step);
+    multiply_columns(duals_, used_, at, image_.share);
   }
+  /// Of the vector last applied to.
+  const Image& image() const noexcept { return image_; }
 
   /// Removes from P·v what rounding left of it along the active rows.
-  void project_again(Image& image) const noexcept {
+  void project_again() noexcept {
     Six<Scalar> along{};
-    for (int i = 0; i < used_; ++i) along[index(i)] = dot_of_six<Scalar>(normal(i), image.step);
+    for (int i = 0; i < used_; ++i) along[index(i)] = dot_of_six<Scalar>(normal(i), image_.step);
     const Six<Scalar> excess = step_of(along);
-    for (std::size_t j = 0; j < 6; ++j) image.step[j] -= excess[j];
+    for (std::size_t j = 0; j < 6; ++j) image_.step[j] -= excess[j];
   }
 
   /// N*ᵀ·w: the shortest step that moves along each active row by w.
-  Six<Scalar> step_of(const Six<Scalar>& along) const noexcept {
+  Six<Scalar> step_of(const Six<Scalar>& along) noexcept {
+    catch_up();
     Six<Scalar> step{};
     for (std::size_t i = 0; i < index(used_); ++i) {
       for (std::size_t j = 0; j < 6; ++j) step[j] += product(along[i], duals_[j][i]);
@@ -94,32 +102,21 @@ class ActiveOperators {
     return step;
   }
 
-  /// Makes a row active, in the slot behind those in use.
-  /// @param image  of the row
+  /// Makes the row last applied to active, in the slot behind those in use.
+  ///
+  /// What this changes is computed once it is asked for: of the last row to be added it seldom is.
   /// @param slope  row · P · row, positive
-  void add(const Six<Scalar>& row, const Image& image, const Scalar& slope) noexcept {
-    const Scalar factor = Scalar(1) / slope;
-    Six<Scalar> direction;
-    for (std::size_t j = 0; j < 6; ++j) direction[j] = image.step[j] * factor;
-    subtract_outer(projector_, 6, image.step, direction);
-    for (int g = 0; g <= used_; g += lanes) {
-      const Group shares = load<Group>(&image.share[index(g)]);
-      for (std::size_t j = 0; j < 6; ++j) {
-        Scalar* const duals = &duals_[j][index(g)];
-        const Group others = load<Group>(duals) - product<Group>(shares, spread<Group>(direction[j]));
-        store(duals, with_lane<Scalar, lanes>(others, used_ - g, direction[j]));
-      }
-    }
+  void add(const Six<Scalar>& row, const Scalar& slope) noexcept {
     normals_[index(used_)] = row;
     ++used_;
+    is_behind_ = true;
+    slope_ = slope;
   }
 
   /// Frees a slot, to which the last one in use moves.
   /// @param dual       its row of N*
-  /// @param image      of H·dual
-  /// @param curvature  dual · H · dual, positive
-  void drop(int slot, const InverseHessian<Scalar>& inverse, const Six<Scalar>& dual, const Image& image,
-            const Scalar& curvature) noexcept {
+  /// @param curvature  dual · H · dual, positive; H·dual is what was last applied to
+  void drop(int slot, const InverseHessian<Scalar>& inverse, const Six<Scalar>& dual, const Scalar& curvature) noexcept {
     const int last = used_ - 1;
     if (last == 0) return reset(inverse);
     const Scalar factor = Scalar(1) / curvature;
@@ -130,8 +127,11 @@ class ActiveOperators {
       direction[j] = dual[j] * factor;
     }
     subtract_outer(projector_, 6, gained, direction);
-    subtract_outer(duals_, used_, image.share, direction);
-    for (Column& column : duals_) set(column, slot, column[index(last)]);
+    subtract_outer(duals_, used_, image_.share, direction);
+    for (Column& column : duals_) {
+      set(column, slot, column[index(last)]);
+      set(column, last, Scalar(0));
+    }
     normals_[index(slot)] = normals_[index(last)];
     used_ = last;
   }
@@ -144,6 +144,8 @@ class ActiveOperators {
   void rebuild(const InverseHessian<Scalar>& inverse) noexcept {
     using std::sqrt;
     if (used_ == 0) return reset(inverse);
+    is_behind_ = false;
+    duals_ = {};
     const SixBySix<Scalar> w = inverse.root();
     const auto root_times = [&w](const Six<Scalar>& v) { return multiply(w, v); };
     const auto transposed_root_times = [&w](const Six<Scalar>& v) {
@@ -204,6 +206,26 @@ class ActiveOperators {
 
   static std::size_t index(int i) noexcept { return std::size_t(i); }
 
+  /// Adds the last slot to both operators.
+  void catch_up() noexcept {
+    if (!is_behind_) return;
+    is_behind_ = false;
+    const int slot = used_ - 1, first = slot - slot % lanes;
+    const Scalar factor = Scalar(1) / slope_;
+    Six<Scalar> direction;
+    for (std::size_t j = 0; j < 6; ++j) direction[j] = image_.step[j] * factor;
+    subtract_outer(projector_, 6, image_.step, direction);
+    // With a share of −1 the row's own numbers, 0 until now, become the direction.
+    Group shares{};
+    if (slot == first) {
+      for (Column& column : duals_) store(&column[index(first)], Group{});
+    } else {
+      shares = load<Group>(&image_.share[index(first)]);
+    }
+    store(&image_.share[index(first)], with_lane<Scalar, lanes>(shares, slot - first, Scalar(-1)));
+    subtract_outer(duals_, used_, image_.share, direction);
+  }
+
   /// The first `count` rows of a matrix times a vector.
   static void multiply_columns(const Columns& columns, int count, const SixGroups& at,
                                Column& image) noexcept {
@@ -225,9 +247,12 @@ class ActiveOperators {
   }
 
   Columns projector_{};  // P
-  Columns duals_{};      // N*
+  Columns duals_{};      // N*; in a group of lanes that is partly used, 0 behind the slots in use
   SixBySix<Scalar> normals_{};
+  Image image_{};
+  Scalar slope_{};
   int used_ = 0;
+  bool is_behind_ = false;  // both operators, by the last slot, whose row the image is of
 };
 
 }  // namespace feeler::detail

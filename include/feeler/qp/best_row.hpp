@@ -18,22 +18,20 @@ class BestRow {
  public:
   using Group = Lanes<Scalar, lanes>;
 
-  void meet(const Group& violation, const Group& weight, const Group& threshold) noexcept {
+  /// Whether each row is above the threshold.
+  bool meet(const Group& violation, const Group& weight, const Group& threshold) noexcept {
     const Group score = product(violation, violation) / weight;
-    if (violation > threshold) {
-      has_any_ = true;
-      if (score > score_) row_ = current_, score_ = score;
-    }
+    const bool is_above = violation > threshold;
+    if (is_above && score > score_) row_ = current_, score_ = score;
     ++current_;
+    return is_above;
   }
   /// −1 if there is none, or if no score is a number.
   int row() const noexcept { return row_; }
-  bool has_any() const noexcept { return has_any_; }
 
  private:
   Scalar score_ = Scalar(-1);
   int row_ = -1, current_ = 0;
-  bool has_any_ = false;
 };
 
 /// The score is up to an eighth too large: a difference of two numbers' bits is about that of their
@@ -46,22 +44,22 @@ requires has_lanes<Scalar>
 class BestRow<Scalar, lanes> {
  public:
   using Group = Lanes<Scalar, lanes>;
+  using BitGroup = Lanes<LaneBits<Scalar>, lanes>;
 
   BestRow() noexcept {
     std::array<Bits, std::size_t(lanes)> numbers;
-    for (std::size_t i = 0; i < numbers.size(); ++i) numbers[i] = Bits(i + 1);
+    for (std::size_t i = 0; i < numbers.size(); ++i) numbers[i] = logarithm_of_one + Bits(i + 1);
     number_ = std::bit_cast<BitGroup>(numbers);
   }
 
-  void meet(const Group& violation, const Group& weight, const Group& threshold) noexcept {
+  BitGroup meet(const Group& violation, const Group& weight, const Group& threshold) noexcept {
     const Group square = product(violation, violation);
-    const auto score =
-        std::bit_cast<Logarithms>(square) - std::bit_cast<Logarithms>(weight) + logarithm_of_one;
+    const auto score = std::bit_cast<BitGroup>(std::bit_cast<Logarithms>(square) - std::bit_cast<Logarithms>(weight));
     const BitGroup is_above = mask(violation > threshold);
-    const BitGroup numbered = ((std::bit_cast<BitGroup>(score) & ~number_bits) | number_) & is_above;
+    const BitGroup numbered = ((score & ~number_bits) + number_) & is_above;
     best_ = greater(std::bit_cast<Group>(numbered), best_);
-    any_ |= is_above;
     number_ += Bits(lanes);
+    return is_above;
   }
   int row() const noexcept {
     auto scores = in_lanes<Scalar>(best_);
@@ -70,19 +68,13 @@ class BestRow<Scalar, lanes> {
     }
     return static_cast<int>(std::bit_cast<Bits>(scores[0]) & number_bits) - 1;
   }
-  bool has_any() const noexcept {
-    Bits any = 0;
-    for (const Bits bits : in_lanes<Bits>(any_)) any |= bits;
-    return any != 0;
-  }
 
  private:
   using Bits = LaneBits<Scalar>;
-  using BitGroup = Lanes<Bits, lanes>;
   using Logarithm = std::make_unsigned_t<Bits>;  // to the base of two, but for a factor and an offset
   using Logarithms = Lanes<Logarithm, lanes>;
   static constexpr Bits number_bits = 0x1ff;
-  static constexpr Logarithm logarithm_of_one = std::bit_cast<Logarithm>(Scalar(1));
+  static constexpr Bits logarithm_of_one = std::bit_cast<Bits>(Scalar(1));
 
   template <class Comparison>
   static BitGroup mask(const Comparison& comparison) noexcept {
@@ -94,7 +86,7 @@ class BestRow<Scalar, lanes> {
   }
 
   Group best_{};
-  BitGroup any_{}, number_;
+  BitGroup number_;  // and the logarithm of one, to which a score is relative
 };
 
 }  // namespace feeler::detail

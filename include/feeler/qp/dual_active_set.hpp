@@ -214,10 +214,10 @@ class DualActiveSet {
     if (!(slope > dependent_angle_ * dependent_angle_ * whole)) return true;
     const Scalar clear = Scalar(1e-12), far = Scalar(1e6);
     if (!is_careful_ || slope > clear * whole) return false;
-    return violation / slope * largest_of(image_.step) > far * (largest_of(x_) + violation / size_of(a));
+    return violation / slope * largest_of(operators_.image().step) > far * (largest_of(x_) + violation / size_of(a));
   }
 
-  Scalar slope_along(const Six& a) const noexcept { return detail::dot_of_six<Scalar>(a, image_.step); }
+  Scalar slope_along(const Six& a) const noexcept { return detail::dot_of_six<Scalar>(a, operators_.image().step); }
 
   void mark_active() noexcept {
     for (int i = 0; i < operators_.used(); ++i) scan_.set_active(slots_[index(i)]);
@@ -232,7 +232,7 @@ class DualActiveSet {
     }
     const Six a = row_of(problem, row);
     const Scalar whole = detail::dot(a, inverse_.inverse_times(a));
-    operators_.apply(a, image_);
+    operators_.apply(a);
     const Scalar slope = slope_along(a);
     if (!(slope > Scalar(1e-3) * whole)) return;
     const Scalar step = (bounds_[row] - detail::dot(a, x_)) / slope;
@@ -292,8 +292,8 @@ class DualActiveSet {
     const Six across = operators_.step_of(lacking);
     const Six pulled = inverse_.hessian_times(across);
     for (std::size_t j = 0; j < 6; ++j) residual[j] += pulled[j];
-    operators_.apply(residual, image_);
-    for (std::size_t j = 0; j < 6; ++j) x_[j] += across[j] - image_.step[j];
+    operators_.apply(residual);
+    for (std::size_t j = 0; j < 6; ++j) x_[j] += across[j] - operators_.image().step[j];
     move_multipliers(Scalar(-1));
     drop_negative();
     return true;
@@ -304,28 +304,27 @@ class DualActiveSet {
   Entry enter(const Problem& problem, int limit, Solution& solution, int& p) noexcept {
     const int row = p;
     const Six a = row_of(problem, row);
-    const Scalar bound = bounds_[row];
-    const Scalar whole = detail::dot(a, inverse_.inverse_times(a));
     const Scalar excused = detail::product(rounding_at(x_), size_of(a));
+    const auto lacking = [&] { return bounds_[row] - detail::dot(a, x_); };
+    Scalar violation = lacking();
     p = -1;
-    if (!(bound - detail::dot(a, x_) > accepted_ + excused))
-      return Entry::refused;  // a fresh look says that it is met
+    if (!(violation > accepted_ + excused)) return Entry::refused;  // a fresh look says that it is met
+    const Scalar whole = scan_.whole_weight(row);
     Scalar multiplier(0);
     while (++solution.iterations <= limit) {
-      operators_.apply(a, image_);
+      operators_.apply(a);
       Scalar slope = slope_along(a);
       if (slope < Scalar(1e-3) * whole) {
-        operators_.project_again(image_);
+        operators_.project_again();
         slope = slope_along(a);
       }
-      const Scalar violation = bound - detail::dot(a, x_);
       const bool has_no_step = is_dependent(a, whole, violation, slope);
 
       const Scalar infinity = std::numeric_limits<Scalar>::infinity();
       Scalar dual_step = infinity;
       int leaving = -1;
       for (int i = 0; i < operators_.used(); ++i) {
-        const Scalar& share = image_.share[index(i)];
+        const Scalar& share = operators_.image().share[index(i)];
         if (share > Scalar(0) && multipliers_[index(i)] < dual_step * share) {
           dual_step = multipliers_[index(i)] / share;
           leaving = i;
@@ -340,7 +339,7 @@ class DualActiveSet {
       multiplier += step;
       if (is_full) {
         clamp_multipliers();
-        p = scan_.add(problem, image_.step, step, slope, accepted_);
+        p = scan_.add(problem, operators_.image().step, step, slope, accepted_);
         scan_.set_active(row);
         if (p == row) p = scan_.select(problem, accepted_);  // rounding says that it is still violated
         activate(row, a, multiplier, slope);
@@ -349,12 +348,13 @@ class DualActiveSet {
       }
       if (has_no_step) move_multipliers(step);
       clamp_multipliers();
-      const auto z = image_.step;
+      const auto z = operators_.image().step;
       const Six dual = operators_.dual(leaving);
       const Scalar curvature = curve(dual);
       scan_.drop(problem, z, has_no_step ? Scalar(0) : step, dual, curvature);
       scan_.set_violation(slots_[index(leaving)], Scalar(0));
       release(leaving, dual, curvature);
+      violation = lacking();
     }
     return Entry::in_doubt;
   }
@@ -371,7 +371,7 @@ class DualActiveSet {
     Scalar slack = allowed(a);
     for (int i = 0; i < operators_.used(); ++i) {
       const Six& normal = operators_.normal(i);
-      const Scalar& share = image_.share[index(i)];
+      const Scalar& share = operators_.image().share[index(i)];
       slack -= detail::product(share, allowed(normal));
       const Scalar drift = bounds_[slots_[index(i)]] - detail::dot(normal, x_);  // of x off this row
       violation -= detail::product(share, drift);
@@ -387,21 +387,21 @@ class DualActiveSet {
     if (!is_certain) return Entry::in_doubt;
     solution.conflict.push_back(p);
     for (int i = 0; i < operators_.used(); ++i) {
-      if (image_.share[index(i)] < -Scalar(1e-9)) solution.conflict.push_back(slots_[index(i)]);
+      if (operators_.image().share[index(i)] < -Scalar(1e-9)) solution.conflict.push_back(slots_[index(i)]);
     }
     return Entry::infeasible;
   }
 
   /// A step along P·a, and what it does to the multipliers.
   void move(const Scalar& step) noexcept {
-    for (std::size_t j = 0; j < 6; ++j) x_[j] += detail::product(step, image_.step[j]);
+    for (std::size_t j = 0; j < 6; ++j) x_[j] += detail::product(step, operators_.image().step[j]);
     move_multipliers(step);
   }
   void move_multipliers(const Scalar& step) noexcept {
     using Group = detail::Lanes<Scalar, lanes>;
     const Group by = detail::spread<Group>(step);
     for (std::size_t g = 0; g < index(operators_.used()); g += std::size_t(lanes)) {
-      const Group change = detail::product<Group>(by, detail::load<Group>(&image_.share[g]));
+      const Group change = detail::product<Group>(by, detail::load<Group>(&operators_.image().share[g]));
       detail::store(&multipliers_[g], Group(detail::load<Group>(&multipliers_[g]) - change));
     }
   }
@@ -411,26 +411,26 @@ class DualActiveSet {
       detail::store(&multipliers_[g], detail::greater<Group>(detail::load<Group>(&multipliers_[g]), Group{}));
   }
 
-  /// Fills the image with that of H·dual and returns dual·H·dual.
+  /// Applies the operators to H·dual and returns dual·H·dual.
   Scalar curve(const Six& dual) noexcept {
     const Six curved = inverse_.hessian_times(dual);
-    operators_.apply(curved, image_);
+    operators_.apply(curved);
     return detail::dot(dual, curved);
   }
 
   void activate(int row, const Six& a, const Scalar& multiplier, const Scalar& slope) noexcept {
     const int slot = operators_.used();
     slots_[index(slot)] = row;
-    Operators::set(multipliers_, slot, multiplier);
-    operators_.add(a, image_, slope);
+    multipliers_[index(slot)] = multiplier;
+    operators_.add(a, slope);
     if (is_careful_) operators_.rebuild(inverse_);
   }
 
   void release(int slot, const Six& dual, const Scalar& curvature) noexcept {
-    operators_.drop(slot, inverse_, dual, image_, curvature);
+    operators_.drop(slot, inverse_, dual, curvature);
     const std::size_t last = index(operators_.used());
     slots_[index(slot)] = slots_[last];
-    Operators::set(multipliers_, slot, multipliers_[last]);
+    multipliers_[index(slot)] = multipliers_[last];
     if (is_careful_) operators_.rebuild(inverse_);
   }
 
@@ -438,7 +438,6 @@ class DualActiveSet {
   detail::HeldMinimum<Scalar> guess_;
   Operators operators_;
   detail::RowScan<Scalar, lanes> scan_;
-  typename Operators::Image image_{};  // of the vector last looked at
   const Scalar* bounds_ = nullptr;     // of the rows, and the violation of them that is accepted
   Scalar accepted_ = Scalar(0);
   alignas(64) std::array<Scalar, std::size_t(Problem::row_capacity)> relaxed_bounds_{};

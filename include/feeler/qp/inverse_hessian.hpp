@@ -2,9 +2,11 @@
 #pragma once
 
 #include <array>
+#include <bit>
 #include <cmath>
 #include <cstddef>
 #include <limits>
+#include <type_traits>
 
 #include "feeler/core/lanes.hpp"
 #include "feeler/core/scalar.hpp"
@@ -22,15 +24,8 @@ class InverseHessian {
   /// False, and nothing else is valid, unless H is positive definite.
   /// @param h  in place until the last call
   bool factor(const Matrix6<Scalar>& h) noexcept {
-    using std::abs;
     hessian_ = h.data();
-    Scalar beside(0);
-#pragma GCC unroll 6
-    for (int j = 0; j < 6; ++j) {
-#pragma GCC unroll 6
-      for (int i = j + 1; i < 6; ++i) beside += abs(h(i, j));
-    }
-    is_diagonal_ = beside == Scalar(0);
+    is_diagonal_ = has_zeros_below();
     return is_diagonal_ ? invert_diagonal() : factorise();
   }
   /// After `factor`: from here on H⁻¹ is known, and L no longer.
@@ -91,6 +86,26 @@ class InverseHessian {
   const Scalar& entry(std::size_t i, std::size_t j) const noexcept { return hessian_[6 * j + i]; }
   static bool is_pivot(const Scalar& pivot) noexcept {
     return pivot > Scalar(0) && pivot < std::numeric_limits<Scalar>::max();
+  }
+
+  /// Whether all below the diagonal is 0; by the bits of the numbers where that is cheaper.
+  bool has_zeros_below() const noexcept {
+    if constexpr (has_lanes<Scalar>) {
+      using Bits = std::make_unsigned_t<LaneBits<Scalar>>;
+      Bits set = 0;
+#pragma GCC unroll 6
+      for (std::size_t j = 0; j < 6; ++j) {
+#pragma GCC unroll 6
+        for (std::size_t i = j + 1; i < 6; ++i) set |= std::bit_cast<Bits>(entry(i, j));
+      }
+      return Bits(set << 1) == 0;  // but for signs
+    } else {
+      bool are_zeros = true;
+      for (std::size_t j = 0; j < 6; ++j) {
+        for (std::size_t i = j + 1; i < 6; ++i) are_zeros = are_zeros && entry(i, j) == Scalar(0);
+      }
+      return are_zeros;
+    }
   }
 
   bool invert_diagonal() noexcept {

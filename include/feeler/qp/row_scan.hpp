@@ -73,23 +73,28 @@ class RowScan {
   void set_active(int k) noexcept { violation_[index(k)] = -std::numeric_limits<Scalar>::infinity(); }
   void set_violation(int k, Scalar violation) noexcept { violation_[index(k)] = violation; }
 
+  /// aₖᵀH⁻¹aₖ
+  Scalar whole_weight(int k) const noexcept { return least_weight_[index(k)] * Scalar(1 / least_share); }
+
   /// The row to add, or −1 if none is violated by more than `tolerance`.
   int select(const Problem& problem, Scalar tolerance) const noexcept {
     const Group threshold = spread<Group>(tolerance);
     Best best;
     for (int k = 0; k < problem.row_count; k += lanes)
       best.meet(load<Group>(&violation_[index(k)]), weight_at(k), threshold);
-    return row_of(best, problem, tolerance);
+    const int row = best.row();
+    return row < 0 ? first_violated(problem, tolerance) : row;
   }
 
-  /// Follows a step of `length` along z and the change of P by −z·zᵀ/slope, then selects as above.
+  /// Follows a step of `length` along z and the change of P by −z·zᵀ/slope, then selects as above; −1 also where no score is a number.
   template <class Step>
   int add(const Problem& problem, const Step& z, Scalar length, Scalar slope, Scalar tolerance) noexcept {
     const SixGroups direction = spread_all(z);
     const Group step = spread<Group>(length), factor = spread<Group>(Scalar(1) / slope);
     const Group threshold = spread<Group>(tolerance);
     Best best;
-    for (int k = 0; k < problem.row_count; k += lanes) {
+    const int count = problem.row_count;
+    for (int k = 0; k < count; k += lanes) {
       const Group along = dot_of_six<Group>(load_rows(problem, k), direction);
       const Group violation = load<Group>(&violation_[index(k)]) - product(step, along);
       store(&violation_[index(k)], violation);
@@ -97,7 +102,7 @@ class RowScan {
             Group(load<Group>(&weight_[index(k)]) - product(product(factor, along), along)));
       best.meet(violation, weight_at(k), threshold);
     }
-    return row_of(best, problem, tolerance);
+    return best.row();
   }
 
   /// Follows a step of `length` along z and the change of P by +u·uᵀ/curvature.
@@ -106,7 +111,8 @@ class RowScan {
             Scalar curvature) noexcept {
     const SixGroups direction = spread_all(z), freed = spread_all(u);
     const Group step = spread<Group>(length), factor = spread<Group>(Scalar(1) / curvature);
-    for (int k = 0; k < problem.row_count; k += lanes) {
+    const int count = problem.row_count;
+    for (int k = 0; k < count; k += lanes) {
       const SixGroups a = load_rows(problem, k);
       const Group along = dot_of_six<Group>(a, direction), gained = dot_of_six<Group>(a, freed);
       store(&violation_[index(k)], Group(load<Group>(&violation_[index(k)]) - product(step, along)));
@@ -184,6 +190,7 @@ class RowScan {
     const SixGroups at = spread_all(x);
     const Group share = spread<Group>(Scalar(least_share)), least = spread<Group>(smallest());
     Best best;
+    auto is_above = Group{} > Group{};
     for_each_group(problem, tolerance, [&](int k, const Group& threshold) {
       const SixGroups a = load_rows(problem, k);
       const Group violation = load<Group>(bounds + k) - dot_of_six<Group>(a, at);
@@ -191,10 +198,11 @@ class RowScan {
       store(&violation_[index(k)], violation);
       store(&weight_[index(k)], weight);
       store(&least_weight_[index(k)], Group(product(share, weight) + least));
-      best.meet(violation, weight, threshold);
+      is_above |= best.meet(violation, weight, threshold);
     });
     clear_rest(problem);
-    return row_of(best, problem, tolerance);
+    const int row = best.row();
+    return row < 0 && any(is_above) ? first_violated(problem, tolerance) : row;
   }
 
   template <class Form>
@@ -217,11 +225,16 @@ class RowScan {
       is_above |= violation > threshold;
     });
     clear_rest(problem);
+    return any(is_above);
+  }
+
+  template <class Comparison>
+  static bool any(const Comparison& comparison) noexcept {
     if constexpr (lanes == 1) {
-      return is_above;
+      return comparison;
     } else {
       LaneBits<Scalar> any = 0;
-      for (const LaneBits<Scalar> bits : in_lanes<LaneBits<Scalar>>(is_above)) any |= bits;
+      for (const LaneBits<Scalar> bits : in_lanes<LaneBits<Scalar>>(comparison)) any |= bits;
       return any != 0;
     }
   }
@@ -244,10 +257,6 @@ class RowScan {
     }
   }
 
-  int row_of(const Best& best, const Problem& problem, Scalar tolerance) const noexcept {
-    const int row = best.row();
-    return row < 0 && best.has_any() ? first_violated(problem, tolerance) : row;
-  }
   /// Where violations are so large that scores are no numbers, any row will do.
   int first_violated(const Problem& problem, Scalar tolerance) const noexcept {
     for (int k = 0; k < problem.row_count; ++k) {
