@@ -98,6 +98,36 @@ BOOST_AUTO_TEST_CASE(the_minimum_and_its_multipliers_solve_the_whole_system_of_e
   BOOST_TEST(refused < found / 10);
 }
 
+BOOST_AUTO_TEST_CASE(rows_are_met_to_nine_digits_also_where_large_forces_cancel) {
+  constexpr unsigned seed = 42;
+  BOOST_TEST_MESSAGE("seed " << seed);
+  std::mt19937 bits(seed);
+  int found = 0;
+  for (int i = 0; i < 2000; ++i) {
+    const int rows = 1 + i % 6;
+    Problem problem = random_problem(bits, rows, i % 4 == 0);
+    // As large as the forces, or smaller by up to eighteen digits: then rounding of the forces is larger than x.
+    const double size = std::pow(10.0, -(i % 19));
+    problem.gradient.setZero();
+    for (int k = 0; k < rows; ++k) {
+      problem.bounds[std::size_t(k)] *= size;
+      problem.gradient += (0.1 + feeler_test::fraction(bits)) * Vector6(problem.rows[std::size_t(k)]);
+    }
+    problem.gradient += size * random_six(bits);
+    const Attempt attempt(problem, first_rows(rows));
+    if (!attempt.is_found) continue;
+    ++found;
+    const Eigen::Map<const Vector6> x(attempt.minimum.x().data());
+    for (int k = 0; k < rows; ++k) {
+      const double lacking = problem.bounds[std::size_t(k)] - problem.rows[std::size_t(k)].dot(x);
+      const double rounding = 1e-15 * (std::abs(problem.bounds[std::size_t(k)]) + problem.rows[std::size_t(k)].norm() * x.norm());
+      BOOST_TEST(std::abs(lacking) <= 1e-9 * x.lpNorm<Eigen::Infinity>());
+      BOOST_TEST(std::abs(lacking - attempt.minimum.lacking()[std::size_t(k)]) <= rounding);
+    }
+  }
+  BOOST_TEST(found > 1000);
+}
+
 BOOST_AUTO_TEST_CASE(a_row_that_pulls_depends_on_others_or_does_not_exist_is_refused) {
   Problem problem;  // min ½|x|², from 0
   problem.add_row(Vector6::Unit(0), 1.0);

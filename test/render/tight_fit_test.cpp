@@ -112,26 +112,32 @@ BOOST_AUTO_TEST_CASE(a_shaft_that_is_held_does_not_creep) {
 }
 
 BOOST_AUTO_TEST_CASE(a_shaft_that_is_stopped_anywhere_comes_to_rest) {
+  // It may be about to fall through its whole hole, by 22 mm, a trust radius or more in a tick.
+  constexpr int most_beyond_its_way = 5;
   for (const auto& [clearance, budget] : {std::pair{1e-4, 200}, std::pair{1e-5, 400}, std::pair{1e-5, 100}}) {
     BOOST_TEST_CONTEXT("clearance " << clearance << ", work budget " << budget) {
       PressedShaft shaft(clearance, budget);
       auto& moving = shaft.renderer;
       BOOST_TEST((moving.reset(shaft.scene.start) == Status::converged));
-      int longest = 0;
+      int longest = 0, beyond_its_way = 0;
       for (int i = 1; i <= ticks_to_run(3200); ++i) {
         const Pose<double> device = shaft.scene.motion(i * 1e-3);
         moving.update(device);
         if (i % 50 != 0) continue;
         for (const double twist : {0.0, 0.02, -0.02, 0.1}) {
           auto held = moving;
+          const Pose<double> start = held.tick().graphic_pose;
           const Pose<double> twisted{device.translation, exp_rotation(Vector3<double>(0, 0, twist)) * device.rotation};
           int ticks = 1;
           while (!held.update(twisted).converged() && ticks < 300) ++ticks;
           longest = std::max(longest, ticks);
+          const double way = pose_error(start, held.tick().graphic_pose).at(0.018);
+          beyond_its_way = std::max(beyond_its_way, ticks - int(std::ceil(way / moving.settings().trust_radius)));
         }
       }
-      BOOST_TEST_MESSAGE("clearance " << clearance << ", budget " << budget << ": at rest after " << longest << " ticks at most");
-      BOOST_TEST(longest <= 20);
+      BOOST_TEST_MESSAGE("clearance " << clearance << ", budget " << budget << ": at rest after " << longest << " ticks at most, " << beyond_its_way
+                                      << " more than its way has trust radii");
+      BOOST_TEST(beyond_its_way <= most_beyond_its_way);
     }
   }
 }

@@ -97,13 +97,12 @@ class DualActiveSet {
     if (!guess_.find(problem, bounds_, start, inverse_, gradient_)) return false;
     using std::isfinite;
     x_ = guess_.x();
-    if (!isfinite(size_of(x_)) || scan_.measure(problem, bounds_, x_, accepted_)) return false;
+    if (!isfinite(detail::size_of(x_)) || scan_.measure(problem, bounds_, x_, accepted_)) return false;
     const int count = start.rows.size();
-    Six residual, lacking;
-    for (int i = 0; i < count; ++i) slots_[index(i)] = start.rows[i];
-    if (is_off(count, [this](int i) -> const Six& { return guess_.normal(i); }, guess_.multipliers(), residual, lacking)) return false;
+    const auto normal_of = [this](int i) -> const Six& { return guess_.normal(i); };
+    if (Six residual; is_off(count, normal_of, guess_.multipliers(), guess_.lacking(), residual)) return false;
     std::copy_n(x_.begin(), 6, solution.step.data());
-    for (int i = 0; i < count; ++i) solution.active.push_back({slots_[index(i)], guess_.multipliers()[index(i)]});
+    for (int i = 0; i < count; ++i) solution.active.push_back({start.rows[i], guess_.multipliers()[index(i)]});
     solution.iterations = 1;
     return true;
   }
@@ -113,12 +112,12 @@ class DualActiveSet {
   Outcome run_with_care(const Problem& problem, Solution& solution) noexcept {
     is_careful_ = true;
     const Scalar smallest_angle = 128 * std::numeric_limits<Scalar>::epsilon();
-    Scalar rounding = std::min(rounding_at(x_), rounding_at(inverse_.inverse_times(gradient_)));
+    Scalar rounding = std::min(detail::rounding_at(x_), detail::rounding_at(inverse_.inverse_times(gradient_)));
     for (const double coarseness : {1.0, 1.0, 30.0, 1e6}) {
       relax_bounds(problem, rounding);
       dependent_angle_ = Scalar(coarseness) * smallest_angle;
       const Outcome outcome = run(problem, WarmStart{}, solution);
-      rounding = rounding_at(x_);
+      rounding = detail::rounding_at(x_);
       if (outcome == Outcome::infeasible) return outcome;
       if (outcome == Outcome::optimal &&
           !scan_.measure_excess(problem, problem.bounds.data(), x_, tolerance, 2 * rounding))
@@ -130,7 +129,7 @@ class DualActiveSet {
   void relax_bounds(const Problem& problem, Scalar rounding) noexcept {
     constexpr double share = 0.875;
     for (int k = 0; k < problem.row_count; ++k) {
-      const Scalar allowed = tolerance + detail::product(rounding, size_of(row_of(problem, k)));
+      const Scalar allowed = tolerance + detail::product(rounding, detail::size_of(row_of(problem, k)));
       relaxed_bounds_[index(k)] = problem.bounds[index(k)] - detail::product(Scalar(share), allowed);
     }
     bounds_ = relaxed_bounds_.data();
@@ -160,7 +159,7 @@ class DualActiveSet {
       }
       ++solution.iterations;
       const bool is_violated = is_strict
-                                   ? scan_.measure_excess(problem, bounds_, x_, accepted_, rounding_at(x_))
+                                   ? scan_.measure_excess(problem, bounds_, x_, accepted_, detail::rounding_at(x_))
                                    : scan_.measure(problem, bounds_, x_, accepted_);
       if (is_violated) {
         mark_active();
@@ -182,24 +181,6 @@ class DualActiveSet {
     return isfinite(sum);
   }
 
-  /// Rounding of a row's value at x, for a row of size one.
-  static Scalar rounding_at(const Six& x) noexcept {
-    return 8 * std::numeric_limits<Scalar>::epsilon() * largest_of(x);
-  }
-  template <class V>
-  static Scalar largest_of(const V& v) noexcept {
-    const auto larger = [&v](std::size_t i) { return std::max(magnitude(v[i]), magnitude(v[i + 1])); };
-    return std::max(std::max(larger(0), larger(2)), larger(4));
-  }
-  static Scalar magnitude(const Scalar& value) noexcept {
-    using std::abs;
-    return abs(value);
-  }
-  static Scalar size_of(const Six& a) noexcept {
-    return ((magnitude(a[0]) + magnitude(a[1])) + (magnitude(a[2]) + magnitude(a[3]))) +
-           (magnitude(a[4]) + magnitude(a[5]));
-  }
-
   static Six row_of(const Problem& problem, int k) noexcept {
     Six a;
     for (int j = 0; j < 6; ++j) a[index(j)] = problem.rows.column(j)[k];
@@ -214,7 +195,7 @@ class DualActiveSet {
     if (!(slope > dependent_angle_ * dependent_angle_ * whole)) return true;
     const Scalar clear = Scalar(1e-12), far = Scalar(1e6);
     if (!is_careful_ || slope > clear * whole) return false;
-    return violation / slope * largest_of(operators_.image().step) > far * (largest_of(x_) + violation / size_of(a));
+    return violation / slope * detail::largest_of(operators_.image().step) > far * (detail::largest_of(x_) + violation / detail::size_of(a));
   }
 
   Scalar slope_along(const Six& a) const noexcept { return detail::dot_of_six<Scalar>(a, operators_.image().step); }
@@ -255,39 +236,40 @@ class DualActiveSet {
     }
   }
 
-  /// Looks at the active rows and at the gradient afresh.
-  /// @param count     of active rows, in the first slots
-  /// @param residual  of the gradient
-  /// @param lacking   by how much x falls short of each active row
+  /// Whether the active rows or the gradient are off.
+  /// @param count     of active rows
+  /// @param lacking   by how much x falls short of each of them
+  /// @param residual  of the gradient, to be found
   template <class NormalOf, class Multipliers>
-  bool is_off(int count, const NormalOf& normal_of, const Multipliers& multipliers, Six& residual, Six& lacking) const noexcept {
+  bool is_off(int count, const NormalOf& normal_of, const Multipliers& multipliers, const Six& lacking, Six& residual) const noexcept {
     const Six bent = inverse_.hessian_times(x_);
     Scalar most_lacking(0);
     for (std::size_t j = 0; j < 6; ++j) residual[j] = bent[j] + gradient_[j];
     for (int i = 0; i < count; ++i) {
       const Six& a = normal_of(i);
       for (std::size_t j = 0; j < 6; ++j) residual[j] -= detail::product(multipliers[index(i)], a[j]);
-      lacking[index(i)] = bounds_[slots_[index(i)]] - detail::dot(a, x_);
-      most_lacking = std::max(most_lacking, magnitude(lacking[index(i)]));
+      most_lacking = std::max(most_lacking, detail::magnitude(lacking[index(i)]));
     }
-    const Scalar rounding_of_sum = 1024 * std::numeric_limits<Scalar>::epsilon(), off = size_of(residual);
-    Scalar size = size_of(bent) + size_of(gradient_);
+    const Scalar rounding_of_sum = 1024 * std::numeric_limits<Scalar>::epsilon(), off = detail::size_of(residual);
+    Scalar size = detail::size_of(bent) + detail::size_of(gradient_);
     if (most_lacking <= accepted_ && off <= rounding_of_sum * size) return false;
 
     // What the sizes of the rows excuse is seldom needed.
-    const Scalar rounding = rounding_at(x_);
+    const Scalar rounding = detail::rounding_at(x_);
     for (int i = 0; i < count; ++i) {
-      const Scalar row_size = size_of(normal_of(i));
+      const Scalar row_size = detail::size_of(normal_of(i));
       size += detail::product(multipliers[index(i)], row_size);
-      if (magnitude(lacking[index(i)]) > accepted_ + detail::product(rounding, row_size)) return true;
+      if (detail::magnitude(lacking[index(i)]) > accepted_ + detail::product(rounding, row_size)) return true;
     }
     return off > rounding_of_sum * size;
   }
 
   /// Where the active rows or the gradient are off, takes one step of Newton's method and returns true.
   bool refine() noexcept {
+    const auto normal_of = [this](int i) -> const Six& { return operators_.normal(i); };
     Six residual, lacking{};
-    if (!is_off(operators_.used(), [this](int i) -> const Six& { return operators_.normal(i); }, multipliers_, residual, lacking)) return false;
+    for (int i = 0; i < operators_.used(); ++i) lacking[index(i)] = bounds_[slots_[index(i)]] - detail::dot(normal_of(i), x_);
+    if (!is_off(operators_.used(), normal_of, multipliers_, lacking, residual)) return false;
 
     const Six across = operators_.step_of(lacking);
     const Six pulled = inverse_.hessian_times(across);
@@ -304,7 +286,7 @@ class DualActiveSet {
   Entry enter(const Problem& problem, int limit, Solution& solution, int& p) noexcept {
     const int row = p;
     const Six a = row_of(problem, row);
-    const Scalar excused = detail::product(rounding_at(x_), size_of(a));
+    const Scalar excused = detail::product(detail::rounding_at(x_), detail::size_of(a));
     const auto lacking = [&] { return bounds_[row] - detail::dot(a, x_); };
     Scalar violation = lacking();
     p = -1;
@@ -365,8 +347,8 @@ class DualActiveSet {
   /// That is in doubt where the sum leaves a rest, or where all of them together agree within their
   /// tolerances.
   Entry conclude_conflict(int p, const Six& a, Scalar violation, Solution& solution) noexcept {
-    const Scalar rounding = rounding_at(x_);
-    const auto allowed = [&](const Six& row) { return tolerance + detail::product(rounding, size_of(row)); };
+    const Scalar rounding = detail::rounding_at(x_);
+    const auto allowed = [&](const Six& row) { return tolerance + detail::product(rounding, detail::size_of(row)); };
     Six rest = a;
     Scalar slack = allowed(a);
     for (int i = 0; i < operators_.used(); ++i) {
@@ -378,10 +360,10 @@ class DualActiveSet {
       for (std::size_t j = 0; j < 6; ++j) rest[j] -= detail::product(share, normal[j]);
     }
     const Scalar allowed_rest =
-        std::max(Scalar(1e-12), Scalar(64 * std::numeric_limits<Scalar>::epsilon())) * size_of(a);
-    const bool is_sum = !(size_of(rest) > allowed_rest);
+        std::max(Scalar(1e-12), Scalar(64 * std::numeric_limits<Scalar>::epsilon())) * detail::size_of(a);
+    const bool is_sum = !(detail::size_of(rest) > allowed_rest);
     // A step some times as long as this one could use the rest.
-    const Scalar within_reach = 16 * size_of(rest) * largest_of(x_);
+    const Scalar within_reach = 16 * detail::size_of(rest) * detail::largest_of(x_);
     const bool is_certain =
         is_careful_ ? violation > within_reach : is_sum && violation > slack + within_reach;
     if (!is_certain) return Entry::in_doubt;

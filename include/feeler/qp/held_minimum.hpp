@@ -1,8 +1,10 @@
 // The minimum of a quadratic where known rows hold with equality.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
+#include <limits>
 
 #include "feeler/core/lanes.hpp"
 #include "feeler/core/scalar.hpp"
@@ -15,8 +17,9 @@ namespace feeler::detail {
 
 /// min ½ xᵀHx + gᵀx subject to aᵢ·x = bᵢ for up to six rows, with their multipliers.
 ///
-/// With H = LDLᵀ and yᵢ = L⁻¹aᵢ the multipliers solve YᵀD⁻¹Y·λ = b + YᵀD⁻¹L⁻¹g: H needs no inverse, and the rows no operators. One step of
-/// iterative refinement follows, so that x meets its rows to the last bits.
+/// With H = LDLᵀ and yᵢ = L⁻¹aᵢ the multipliers solve YᵀD⁻¹Y·λ = b + YᵀD⁻¹L⁻¹g: H needs no inverse, and the rows no operators. Where the terms
+/// of x all but cancel, as those of a tool that is pinned, it lies beside its rows by more than ten digits of itself, and one step of iterative
+/// refinement follows.
 /// Source: J. Nocedal, S. J. Wright, "Numerical Optimization" (2006), section 16.2, the Schur-complement method.
 template <RealScalar Scalar>
 class HeldMinimum {
@@ -64,7 +67,10 @@ class HeldMinimum {
     }
     for (std::size_t j = 0; j < 6; ++j) force[j] *= -d_inverse[j];
     x_ = hessian.solve_upper(force);
-    meet(bounds, start, hessian, scaled, l, pivot_inverse);
+    if (look(bounds, start) > rough() * largest_of(x_)) {
+      meet(hessian, scaled, l, pivot_inverse, count);
+      look(bounds, start);
+    }
     return true;
   }
 
@@ -72,14 +78,25 @@ class HeldMinimum {
   /// Of the rows, in the order of the start.
   const Six<Scalar>& multipliers() const noexcept { return multipliers_; }
   const Six<Scalar>& normal(int i) const noexcept { return normals_[std::size_t(i)]; }
+  /// By how much x falls short of each of them [m].
+  const Six<Scalar>& lacking() const noexcept { return lacking_; }
 
  private:
-  /// Takes back by how much rounding left x beside the rows: where many of them pin it, that is what the next problem starts from.
-  void meet(const Scalar* bounds, const WarmStart& start, const InverseHessian<Scalar>& hessian, const SixBySix<Scalar>& scaled,
-            const SixBySix<Scalar>& l, const Six<Scalar>& pivot_inverse) noexcept {
-    const auto count = std::size_t(start.rows.size());
-    Six<Scalar> along, push{};
-    for (std::size_t i = 0; i < count; ++i) along[i] = bounds[start.rows[int(i)]] - dot(normals_[i], x_);
+  /// By how much x falls short of each row; returns the largest distance.
+  Scalar look(const Scalar* bounds, const WarmStart& start) noexcept {
+    Scalar most(0);
+    for (int k = 0; k < start.rows.size(); ++k) {
+      const auto i = std::size_t(k);
+      lacking_[i] = bounds[start.rows[k]] - dot(normals_[i], x_);
+      most = std::max({most, lacking_[i], Scalar(-lacking_[i])});
+    }
+    return most;
+  }
+
+  /// Takes back by how much rounding left x beside the rows.
+  void meet(const InverseHessian<Scalar>& hessian, const SixBySix<Scalar>& scaled, const SixBySix<Scalar>& l, const Six<Scalar>& pivot_inverse,
+            std::size_t count) noexcept {
+    Six<Scalar> along = lacking_, push{};
     solve(l, pivot_inverse, count, along);
     for (std::size_t i = count; i-- > 0;) {
       for (std::size_t j = 0; j < 6; ++j) push[j] += product(along[i], scaled[i][j]);
@@ -99,11 +116,15 @@ class HeldMinimum {
     }
   }
 
+  /// Of x, by which it may lie beside a row.
+  static Scalar rough() noexcept { return std::min(Scalar(0x1p17) * std::numeric_limits<Scalar>::epsilon(), Scalar(0x1p-35)); }
+
   /// Share of a row that has to be its own.
   static constexpr double independent = 1e-3;
 
   Six<Scalar> x_{};
   Six<Scalar> multipliers_{};
+  Six<Scalar> lacking_{};
   SixBySix<Scalar> normals_{};
 };
 

@@ -1,8 +1,11 @@
 // Vectors and symmetric matrices of six numbers, computed one number or one group at a time with the same bits.
 #pragma once
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
+#include <limits>
 
 #include "feeler/core/lanes.hpp"
 
@@ -40,6 +43,28 @@ inline Six<Scalar> multiply(const SixBySix<Scalar>& m, const Six<Scalar>& v) noe
   Six<Scalar> image;
   for (std::size_t j = 0; j < 6; ++j) image[j] = dot(m[j], v);
   return image;
+}
+
+template <class Scalar>
+inline Scalar magnitude(const Scalar& value) noexcept {
+  using std::abs;
+  return abs(value);
+}
+/// The largest |vⱼ| of the first six.
+template <class Scalar, std::size_t size>
+inline Scalar largest_of(const std::array<Scalar, size>& v) noexcept {
+  const auto larger = [&v](std::size_t j) { return std::max(magnitude(v[j]), magnitude(v[j + 1])); };
+  return std::max(std::max(larger(0), larger(2)), larger(4));
+}
+/// Σ |vⱼ|
+template <class Scalar>
+inline Scalar size_of(const Six<Scalar>& v) noexcept {
+  return ((magnitude(v[0]) + magnitude(v[1])) + (magnitude(v[2]) + magnitude(v[3]))) + (magnitude(v[4]) + magnitude(v[5]));
+}
+/// Rounding of a row's value at x, for a row of size one.
+template <class Scalar>
+inline Scalar rounding_at(const Six<Scalar>& x) noexcept {
+  return 8 * std::numeric_limits<Scalar>::epsilon() * largest_of(x);
 }
 
 }  // namespace feeler::detail
