@@ -56,6 +56,30 @@ BOOST_AUTO_TEST_CASE(any_number_of_lanes_gives_the_same_bits_in_float) {
   check_same_bits<float, 4, 8>(12);
 }
 
+namespace {
+
+template <class Scalar, int lanes>
+void check_one_lane_changes() {
+  using Group = feeler::detail::Lanes<Scalar, lanes>;
+  alignas(64) std::array<Scalar, lanes> before;
+  for (std::size_t i = 0; i < lanes; ++i) before[i] = Scalar(1) + Scalar(i);
+  for (int lane = -8; lane <= 8; ++lane) {
+    const auto after = feeler::detail::in_lanes<Scalar>(
+        feeler::detail::with_lane<Scalar, lanes>(feeler::detail::load<Group>(before.data()), lane, Scalar(-5)));
+    for (int i = 0; i < lanes; ++i) BOOST_TEST(after[std::size_t(i)] == (i == lane ? Scalar(-5) : before[std::size_t(i)]));
+  }
+}
+
+}  // namespace
+
+BOOST_AUTO_TEST_CASE(one_lane_changes_and_none_where_there_is_no_such_lane) {
+  check_one_lane_changes<double, 2>();
+  check_one_lane_changes<double, 4>();
+  check_one_lane_changes<double, 8>();
+  check_one_lane_changes<float, 4>();
+  check_one_lane_changes<float, 8>();
+}
+
 BOOST_AUTO_TEST_CASE(the_best_row_scores_within_an_eighth_of_any_other) {
   constexpr int lanes = 4, rows = 64;
   using Group = feeler::detail::Lanes<double, lanes>;
