@@ -47,18 +47,18 @@ class BestRow<Scalar, lanes> {
   using BitGroup = Lanes<LaneBits<Scalar>, lanes>;
 
   BestRow() noexcept {
-    std::array<Bits, std::size_t(lanes)> numbers;
-    for (std::size_t i = 0; i < numbers.size(); ++i) numbers[i] = logarithm_of_one + Bits(i + 1);
-    number_ = std::bit_cast<BitGroup>(numbers);
+    std::array<Logarithm, std::size_t(lanes)> numbers;
+    for (std::size_t i = 0; i < numbers.size(); ++i) numbers[i] = logarithm_of_one + Logarithm(i + 1);
+    number_ = std::bit_cast<Logarithms>(numbers);
   }
 
   BitGroup meet(const Group& violation, const Group& weight, const Group& threshold) noexcept {
     const Group square = product(violation, violation);
-    const auto score = std::bit_cast<BitGroup>(std::bit_cast<Logarithms>(square) - std::bit_cast<Logarithms>(weight));
+    const Logarithms score = std::bit_cast<Logarithms>(square) - std::bit_cast<Logarithms>(weight);
     const BitGroup is_above = mask(violation > threshold);
-    const BitGroup numbered = ((score & ~number_bits) + number_) & is_above;
+    const BitGroup numbered = std::bit_cast<BitGroup>(Logarithms((score & ~number_bits) + number_)) & is_above;
     best_ = greater(std::bit_cast<Group>(numbered), best_);
-    number_ += Bits(lanes);
+    number_ += Logarithm(lanes);
     return is_above;
   }
   int row() const noexcept {
@@ -66,15 +66,15 @@ class BestRow<Scalar, lanes> {
     for (std::size_t half = scores.size() / 2; half > 0; half /= 2) {
       for (std::size_t i = 0; i < half; ++i) scores[i] = greater(scores[i], scores[i + half]);
     }
-    return static_cast<int>(std::bit_cast<Bits>(scores[0]) & number_bits) - 1;
+    return static_cast<int>(std::bit_cast<Logarithm>(scores[0]) & number_bits) - 1;
   }
 
  private:
   using Bits = LaneBits<Scalar>;
   using Logarithm = std::make_unsigned_t<Bits>;  // to the base of two, but for a factor and an offset
   using Logarithms = Lanes<Logarithm, lanes>;
-  static constexpr Bits number_bits = 0x1ff;
-  static constexpr Bits logarithm_of_one = std::bit_cast<Bits>(Scalar(1));
+  static constexpr Logarithm number_bits = 0x1ff;
+  static constexpr Logarithm logarithm_of_one = std::bit_cast<Logarithm>(Scalar(1));
 
   template <class Comparison>
   static BitGroup mask(const Comparison& comparison) noexcept {
@@ -86,7 +86,7 @@ class BestRow<Scalar, lanes> {
   }
 
   Group best_{};
-  BitGroup number_;  // and the logarithm of one, to which a score is relative
+  Logarithms number_;  // and the logarithm of one, to which a score is relative
 };
 
 }  // namespace feeler::detail
