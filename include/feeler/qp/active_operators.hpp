@@ -35,13 +35,6 @@ class ActiveOperators {
     Column share{};
   };
 
-  /// Sets one number of a column.
-  static void set(Column& column, int i, const Scalar& value) noexcept {
-    const int first = i - i % lanes;
-    Scalar* const group = &column[index(first)];
-    store(group, with_lane<Scalar, lanes>(load<Group>(group), i - first, value));
-  }
-
   /// Nothing active: P is H⁻¹.
   void reset(const InverseHessian<Scalar>& inverse) noexcept {
     used_ = 0;
@@ -205,6 +198,13 @@ class ActiveOperators {
   using Columns = std::array<Column, 6>;
 
   static std::size_t index(int i) noexcept { return std::size_t(i); }
+
+  /// Sets one number of a column.
+  static void set(Column& column, int i, const Scalar& value) noexcept {
+    const int first = i - i % lanes;
+    Scalar* const group = &column[index(first)];
+    store(group, with_lane<Scalar, lanes>(load<Group>(group), i - first, value));
+  }
 
   /// Adds the last slot to both operators.
   void catch_up() noexcept {

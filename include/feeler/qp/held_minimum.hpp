@@ -88,7 +88,7 @@ class HeldMinimum {
     for (int k = 0; k < start.rows.size(); ++k) {
       const auto i = std::size_t(k);
       lacking_[i] = bounds[start.rows[k]] - dot(normals_[i], x_);
-      most = std::max({most, lacking_[i], Scalar(-lacking_[i])});
+      most = std::max(most, magnitude(lacking_[i]));
     }
     return most;
   }
