@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <string>
 
 #include "support/qp_laws.hpp"
 
@@ -250,6 +251,36 @@ BOOST_AUTO_TEST_CASE(units_that_differ_by_a_power_of_two_give_the_same_bits) {
     Solution a, b;
     BOOST_TEST((solver.solve(problem, a) == scaled.solve(larger, b)));
     BOOST_TEST((a.step * 1024 == b.step));
+  }
+}
+
+// What chooses rows has the range of float, what decides has not.
+BOOST_AUTO_TEST_CASE(hessians_and_lengths_far_beyond_float_obey_the_laws) {
+  constexpr unsigned seed = 5;
+  BOOST_TEST_MESSAGE("seed " << seed);
+  std::mt19937 bits(seed);
+  DualActiveSet<double> solver;
+  for (const int exponent : {-280, -130, -70, 70, 130, 280}) {
+    const double factor = std::ldexp(1.0, exponent);
+    for (int i = 0; i < 120; ++i) {
+      constexpr double scale = 0.01;
+      const Problem problem = feeler_test::random_problem<double>(bits, i % feeler_test::random_problem_families, scale);
+      Problem stiff = problem, large = problem;
+      stiff.hessian *= factor;
+      stiff.gradient *= factor;
+      large.gradient *= factor;
+      for (int k = 0; k < problem.row_count; ++k) large.bounds[std::size_t(k)] *= factor;
+      const std::string name = "exponent " + std::to_string(exponent) + " problem " + std::to_string(i);
+      const feeler_test::QpPromise promise;
+      Solution solution;
+      solver.tolerance = 2e-13;
+      feeler_test::check_answer(stiff, solver.solve(stiff, solution), solution, scale, "stiff " + name, promise);
+      feeler_test::QpPromise large_promise;
+      large_promise.tolerance *= factor;
+      solver.tolerance *= factor;
+      feeler_test::check_answer(large, solver.solve(large, solution), solution, factor * scale, "large " + name,
+                                large_promise);
+    }
   }
 }
 

@@ -70,7 +70,54 @@ void check_one_lane_changes() {
   }
 }
 
+template <class Scalar, int lanes>
+void check_first_and_largest_lanes() {
+  using Group = feeler::detail::Lanes<Scalar, lanes>;
+  const Group ones = feeler::detail::spread<Group>(Scalar(1));
+  for (int count = 0; count <= lanes; ++count) {
+    const auto first = feeler::detail::in_lanes<Scalar>(
+        Group(feeler::detail::first_lanes<Scalar, lanes>(count) ? ones : Group{}));
+    for (int i = 0; i < lanes; ++i) BOOST_TEST(first[std::size_t(i)] == (i < count ? 1 : 0));
+  }
+  for (int largest = 0; largest < lanes; ++largest) {
+    const Group group = feeler::detail::with_lane<Scalar, lanes>(-ones, largest, Scalar(-0.5));
+    const Scalar found = feeler::detail::largest_lane<Scalar, lanes>(group);
+    BOOST_TEST(found == Scalar(-0.5));
+  }
+}
+
+/// Checks that the numbers of one group of double, and of two, are rounded in their order.
+template <int lanes>
+void check_rounding() {
+  using Group = feeler::detail::Lanes<double, lanes>;
+  alignas(64) std::array<double, std::size_t(2 * lanes)> numbers;
+  for (std::size_t i = 0; i < numbers.size(); ++i) numbers[i] = 0.1 + double(i);
+  const Group front = feeler::detail::load<Group>(numbers.data()), back = feeler::detail::load<Group>(&numbers[lanes]);
+  const auto check = [&](const auto& group, std::size_t count) {
+    const auto rounded = feeler::detail::in_lanes<float>(group);
+    BOOST_TEST_REQUIRE(rounded.size() == count);
+    for (std::size_t i = 0; i < count; ++i) BOOST_TEST(rounded[i] == float(numbers[i]));
+  };
+  if constexpr (lanes > 2) check(feeler::detail::rounded<feeler::detail::Lanes<float, lanes>>(front), lanes);
+  if constexpr (lanes < 8)
+    check(feeler::detail::rounded<feeler::detail::Lanes<float, 2 * lanes>>(front, back), 2 * lanes);
+}
+
 }  // namespace
+
+BOOST_AUTO_TEST_CASE(the_first_lanes_and_the_largest_are_found) {
+  check_first_and_largest_lanes<double, 2>();
+  check_first_and_largest_lanes<double, 4>();
+  check_first_and_largest_lanes<double, 8>();
+  check_first_and_largest_lanes<float, 4>();
+  check_first_and_largest_lanes<float, 8>();
+}
+
+BOOST_AUTO_TEST_CASE(groups_are_rounded_in_the_order_of_their_lanes) {
+  check_rounding<2>();
+  check_rounding<4>();
+  check_rounding<8>();
+}
 
 BOOST_AUTO_TEST_CASE(one_lane_changes_and_none_where_there_is_no_such_lane) {
   check_one_lane_changes<double, 2>();

@@ -10,6 +10,7 @@
 #include <cstring>
 #include <memory>
 #include <type_traits>
+#include <utility>
 
 namespace feeler::detail {
 
@@ -82,6 +83,34 @@ inline Group spread(const Scalar& value) noexcept {
   }
 }
 
+/// The numbers of a group, or of one behind another, each rounded to a number of `Rounded`.
+template <class Rounded, class Group>
+inline Rounded rounded(const Group& group) noexcept {
+  if constexpr (std::is_same_v<Rounded, Group>) {
+    return group;
+  } else if constexpr (std::is_arithmetic_v<Rounded>) {
+    return Rounded(group);
+  } else {
+#if defined(__GNUC__)
+    return __builtin_convertvector(group, Rounded);
+#endif
+  }
+}
+template <class Rounded, class Group>
+inline Rounded rounded(const Group& front, const Group& back) noexcept {
+  using Scalar = std::remove_cvref_t<decltype(front[0])>;
+  using Number = std::remove_cvref_t<decltype(Rounded{}[0])>;
+  constexpr int lanes = int(sizeof(Group) / sizeof(Scalar));
+  return [&]<int... i>(std::integer_sequence<int, i...>) {
+    if constexpr (lanes == 2) {
+      return rounded<Rounded>(Lanes<Scalar, 4>{front[i]..., back[i]...});
+    } else {
+      const auto a = rounded<Lanes<Number, lanes>>(front), b = rounded<Lanes<Number, lanes>>(back);
+      return Rounded{a[i]..., b[i]...};
+    }
+  }(std::make_integer_sequence<int, lanes>{});
+}
+
 /// The numbers of a group, one by one.
 ///
 /// By way of memory: of a `bit_cast` g++ 12 makes, where registers are scarce, MMX instructions, which leave the processor unable to compute in
@@ -107,6 +136,21 @@ inline Lanes<LaneBits<Scalar>, lanes> only_lane(int lane) noexcept {
   }();
   Lanes<LaneBits<Scalar>, lanes> group;
   std::memcpy(&group, &marks[std::size_t(most - lane)], sizeof(group));
+  return group;
+}
+
+/// In the first lanes −1, in the others 0.
+/// @param count  of the first, from 0 to 8
+template <class Scalar, int lanes>
+inline Lanes<LaneBits<Scalar>, lanes> first_lanes(int count) noexcept {
+  constexpr int most = 8;
+  static constexpr auto marks = [] {
+    std::array<LaneBits<Scalar>, std::size_t(2 * most)> ones_and_zeros{};
+    for (int i = 0; i < most; ++i) ones_and_zeros[std::size_t(i)] = -1;
+    return ones_and_zeros;
+  }();
+  Lanes<LaneBits<Scalar>, lanes> group;
+  std::memcpy(&group, &marks[std::size_t(most - count)], sizeof(group));
   return group;
 }
 
@@ -136,6 +180,24 @@ inline Lanes<LaneBits<Scalar>, lanes> at_most(const Lanes<Scalar, lanes>& a, con
 template <class Group>
 inline Group greater(const Group& a, const Group& b) noexcept {
   return a > b ? a : b;
+}
+
+/// The largest number of a group, none of which is NaN.
+template <class Scalar, int lanes>
+inline Scalar largest_lane(const Lanes<Scalar, lanes>& group) noexcept {
+  if constexpr (lanes == 1) {
+    return group;
+  } else {
+    Lanes<Scalar, lanes> largest = group;
+    const auto fold = [&]<int half, int... i>(std::integral_constant<int, half>, std::integer_sequence<int, i...>) {
+      largest = greater(largest, Lanes<Scalar, lanes>{largest[i ^ half]...});
+    };
+    constexpr std::make_integer_sequence<int, lanes> all{};
+    if constexpr (lanes > 4) fold(std::integral_constant<int, 4>{}, all);
+    if constexpr (lanes > 2) fold(std::integral_constant<int, 2>{}, all);
+    fold(std::integral_constant<int, 1>{}, all);
+    return largest[0];
+  }
 }
 
 template <class Group>

@@ -18,13 +18,10 @@ class BestRow {
  public:
   using Group = Lanes<Scalar, lanes>;
 
-  /// Whether each row is above the threshold.
-  bool meet(const Group& violation, const Group& weight, const Group& threshold) noexcept {
+  void meet(const Group& violation, const Group& weight, const Group& threshold) noexcept {
     const Group score = product(violation, violation) / weight;
-    const bool is_above = violation > threshold;
-    if (is_above && score > score_) row_ = current_, score_ = score;
+    if (violation > threshold && score > score_) row_ = current_, score_ = score;
     ++current_;
-    return is_above;
   }
   /// −1 if there is none, or if no score is a number.
   int row() const noexcept { return row_; }
@@ -52,21 +49,16 @@ class BestRow<Scalar, lanes> {
     number_ = std::bit_cast<Logarithms>(numbers);
   }
 
-  BitGroup meet(const Group& violation, const Group& weight, const Group& threshold) noexcept {
+  void meet(const Group& violation, const Group& weight, const Group& threshold) noexcept {
     const Group square = product(violation, violation);
     const Logarithms score = std::bit_cast<Logarithms>(square) - std::bit_cast<Logarithms>(weight);
     const BitGroup is_above = mask(violation > threshold);
     const BitGroup numbered = std::bit_cast<BitGroup>(Logarithms((score & ~number_bits) + number_)) & is_above;
     best_ = greater(std::bit_cast<Group>(numbered), best_);
     number_ += Logarithm(lanes);
-    return is_above;
   }
   int row() const noexcept {
-    auto scores = in_lanes<Scalar>(best_);
-    for (std::size_t half = scores.size() / 2; half > 0; half /= 2) {
-      for (std::size_t i = 0; i < half; ++i) scores[i] = greater(scores[i], scores[i + half]);
-    }
-    return static_cast<int>(std::bit_cast<Logarithm>(scores[0]) & number_bits) - 1;
+    return static_cast<int>(std::bit_cast<Logarithm>(largest_lane<Scalar, lanes>(best_)) & number_bits) - 1;
   }
 
  private:

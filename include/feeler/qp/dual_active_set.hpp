@@ -97,7 +97,7 @@ class DualActiveSet {
     if (!guess_.find(problem, bounds_, start, inverse_, gradient_)) return false;
     using std::isfinite;
     x_ = guess_.x();
-    if (!isfinite(detail::size_of(x_)) || scan_.measure(problem, bounds_, x_, accepted_)) return false;
+    if (!isfinite(detail::size_of(x_)) || scan_.is_violated(problem, bounds_, x_, accepted_)) return false;
     const int count = start.rows.size();
     const auto normal_of = [this](int i) -> const Six& { return guess_.normal(i); };
     if (Six residual; is_off(count, normal_of, guess_.multipliers(), guess_.lacking(), residual)) return false;
@@ -120,7 +120,7 @@ class DualActiveSet {
       rounding = detail::rounding_at(x_);
       if (outcome == Outcome::infeasible) return outcome;
       if (outcome == Outcome::optimal &&
-          !scan_.measure_excess(problem, problem.bounds.data(), x_, tolerance, 2 * rounding))
+          !scan_.is_violated(problem, problem.bounds.data(), x_, tolerance, 2 * rounding))
         return outcome;
     }
     return Outcome::in_doubt;
@@ -143,11 +143,11 @@ class DualActiveSet {
     for (const int row : start.rows) assume(problem, row);
     drop_negative();
 
-    bool is_weighed = operators_.used() == 0, is_strict = false;
+    bool is_weighed = operators_.used() == 0, is_measured = true, is_strict = false;
     int entering = -1;
     if (is_weighed) {
       entering = scan_.start(problem, bounds_, inverse_, x_, accepted_);
-      if (entering < 0) return Outcome::optimal;
+      if (entering < 0 && !scan_.is_violated(problem, bounds_, x_, accepted_)) return Outcome::optimal;
     }
     const int limit = (is_careful_ ? 16 : 8) * (problem.row_count + 8);
     while (solution.iterations <= limit) {
@@ -155,21 +155,38 @@ class DualActiveSet {
         const Entry entry = enter(problem, limit, solution, entering);
         if (entry == Entry::infeasible) return Outcome::infeasible;
         if (entry == Entry::in_doubt) return Outcome::in_doubt;
-        is_strict = is_strict || entry == Entry::refused;
+        is_strict = is_strict || (is_measured && entry == Entry::refused);
+        is_measured = false;
       }
       ++solution.iterations;
-      const bool is_violated = is_strict
-                                   ? scan_.measure_excess(problem, bounds_, x_, accepted_, detail::rounding_at(x_))
-                                   : scan_.measure(problem, bounds_, x_, accepted_);
-      if (is_violated) {
+      const Scalar rounding = is_strict ? detail::rounding_at(x_) : Scalar(0);
+      if (is_strict ? scan_.is_violated(problem, bounds_, x_, accepted_, rounding)
+                    : scan_.is_violated(problem, bounds_, x_, accepted_)) {
+        scan_.measure(problem, bounds_, x_, rounding);
         mark_active();
         if (!is_weighed) scan_.weigh(problem, inverse_, operators_.projector());
-        is_weighed = true;
+        is_weighed = is_measured = true;
         entering = scan_.select(problem, accepted_);
+        if (entering < 0) entering = most_violated(problem, rounding);
       }
       if (entering < 0 && (operators_.used() == 0 || !refine())) return Outcome::optimal;
     }
     return Outcome::in_doubt;
+  }
+
+  /// Of the rows that are not active; −1 if none is violated.
+  ///
+  /// Chosen by more digits than the scan has, as is needed where lengths or the Hessian are out of all proportion.
+  int most_violated(const Problem& problem, Scalar rounding) const noexcept {
+    int row = -1;
+    Scalar most = accepted_;
+    for (int k = 0; k < problem.row_count; ++k) {
+      const Six a = row_of(problem, k);
+      const Scalar violation = bounds_[k] - detail::dot(a, x_) - detail::product(rounding, detail::size_of(a));
+      const auto slots = slots_.begin();
+      if (violation > most && std::find(slots, slots + operators_.used(), k) == slots + operators_.used()) row = k, most = violation;
+    }
+    return row;
   }
 
   bool is_finite() const noexcept {
@@ -291,12 +308,13 @@ class DualActiveSet {
     Scalar violation = lacking();
     p = -1;
     if (!(violation > accepted_ + excused)) return Entry::refused;  // a fresh look says that it is met
-    const Scalar whole = scan_.whole_weight(row);
+    Scalar whole = scan_.whole_weight(row);
     Scalar multiplier(0);
     while (++solution.iterations <= limit) {
       operators_.apply(a);
       Scalar slope = slope_along(a);
-      if (slope < Scalar(1e-3) * whole) {
+      if (!(slope >= Scalar(1e-3) * whole)) {
+        whole = detail::dot(a, inverse_.inverse_times(a));
         operators_.project_again();
         slope = slope_along(a);
       }

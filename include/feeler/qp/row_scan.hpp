@@ -2,9 +2,11 @@
 // move.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <limits>
+#include <type_traits>
 
 #include "feeler/core/lanes.hpp"
 #include "feeler/core/scalar.hpp"
@@ -25,12 +27,16 @@ namespace feeler::detail {
 /// algorithms for linear programming", Mathematical Programming 57 (1992), the dual algorithms of section 3,
 /// for their counterpart in linear programs. A row is computed in one lane by the same operations in the same
 /// order, however many lanes there are.
+///
+/// All this only says which row to look at next, and for that few digits do: the rows of a problem in `double`
+/// are followed in `float`, of which a processor takes twice as many at a time. Whether a row is violated, and
+/// by how much, is to be computed from the problem itself.
 template <RealScalar Scalar, int lanes>
 class RowScan {
  public:
   using Problem = QpProblem<Scalar>;
 
-  /// Computes violations and weights where nothing is active, and selects.
+  /// Computes violations and weights where nothing is active, and selects as `select` does.
   /// @param bounds  of the rows, here and below
   int start(const Problem& problem, const Scalar* bounds, const InverseHessian<Scalar>& inverse,
             const Six<Scalar>& x, Scalar tolerance) noexcept {
@@ -47,59 +53,56 @@ class RowScan {
     }
   }
 
-  /// Computes violations at x afresh, and says whether one is above `tolerance`.
-  bool measure(const Problem& problem, const Scalar* bounds, const Six<Scalar>& x,
-               Scalar tolerance) noexcept {
-    const SixGroups at = spread_all(x);
-    return measure(problem, bounds, tolerance, [&at](const SixGroups& a, const Group& bound) {
-      return bound - dot_of_six<Group>(a, at);
-    });
+  /// Whether a row is violated at x by more than `tolerance`; nothing of it is kept.
+  static bool is_violated(const Problem& problem, const Scalar* bounds, const Six<Scalar>& x,
+                          Scalar tolerance) noexcept {
+    return is_above(problem, tolerance, Violation(bounds, x));
   }
-  /// The same less what rounding makes of them.
-  /// @param rounding  of a row's value at x, for a row of size one
-  bool measure_excess(const Problem& problem, const Scalar* bounds, const Six<Scalar>& x, Scalar tolerance,
-                      Scalar rounding) noexcept {
-    const SixGroups at = spread_all(x);
-    const Group unit = spread<Group>(rounding);
-    return measure(problem, bounds, tolerance, [&at, &unit](const SixGroups& a, const Group& bound) {
-      SixGroups size;
-      for (std::size_t j = 0; j < 6; ++j) size[j] = greater(a[j], Group(-a[j]));
-      const Group sum = ((size[0] + size[1]) + (size[2] + size[3])) + (size[4] + size[5]);
-      return (bound - dot_of_six<Group>(a, at)) - product(unit, sum);
-    });
+  /// The same less what rounding makes of it.
+  /// @param rounding  of a row's value at x, for a row of size one, here and below
+  [[gnu::noinline]]
+  static bool is_violated(const Problem& problem, const Scalar* bounds, const Six<Scalar>& x, Scalar tolerance,
+                          Scalar rounding) noexcept {
+    return is_above(problem, tolerance, Excess(bounds, x, rounding));
+  }
+  /// Computes violations at x afresh, less what rounding makes of them.
+  void measure(const Problem& problem, const Scalar* bounds, const Six<Scalar>& x, Scalar rounding) noexcept {
+    const Excess excess(bounds, x, rounding);
+    for (int k = 0; k < problem.row_count; k += coarse_lanes)
+      store(&violation_[index(k)], coarse_violation(problem, k, excess));
   }
 
   /// An active row is not violated, whatever rounding says.
-  void set_active(int k) noexcept { violation_[index(k)] = -std::numeric_limits<Scalar>::infinity(); }
-  void set_violation(int k, Scalar violation) noexcept { violation_[index(k)] = violation; }
+  void set_active(int k) noexcept { violation_[index(k)] = -std::numeric_limits<Coarse>::infinity(); }
+  void set_violation(int k, Scalar violation) noexcept { violation_[index(k)] = Coarse(violation); }
 
-  /// aₖᵀH⁻¹aₖ
-  Scalar whole_weight(int k) const noexcept { return least_weight_[index(k)] * Scalar(1 / least_share); }
+  /// About aₖᵀH⁻¹aₖ; too much, or no number, where that is beyond what it is kept in.
+  Scalar whole_weight(int k) const noexcept { return Scalar(least_weight_[index(k)]) * Scalar(1 / least_share); }
 
-  /// The row to add, or −1 if none is violated by more than `tolerance`.
+  /// The row to add; −1 if none is violated by more than `tolerance`, and also where no score is a number.
   int select(const Problem& problem, Scalar tolerance) const noexcept {
-    const Group threshold = spread<Group>(tolerance);
+    const CoarseGroup threshold = spread<CoarseGroup>(Coarse(tolerance));
     Best best;
-    for (int k = 0; k < problem.row_count; k += lanes)
-      best.meet(load<Group>(&violation_[index(k)]), weight_at(k), threshold);
-    const int row = best.row();
-    return row < 0 ? first_violated(problem, tolerance) : row;
+    for (int k = 0; k < problem.row_count; k += coarse_lanes)
+      best.meet(load<CoarseGroup>(&violation_[index(k)]), weight_at(k), threshold);
+    return best.row();
   }
 
-  /// Follows a step of `length` along z and the change of P by −z·zᵀ/slope, then selects as above; −1 also where no score is a number.
+  /// Follows a step of `length` along z and the change of P by −z·zᵀ/slope, then selects as above.
   template <class Step>
   int add(const Problem& problem, const Step& z, Scalar length, Scalar slope, Scalar tolerance) noexcept {
-    const SixGroups direction = spread_all(z);
-    const Group step = spread<Group>(length), factor = spread<Group>(Scalar(1) / slope);
-    const Group threshold = spread<Group>(tolerance);
+    const SixCoarse direction = spread_all<CoarseGroup>(z);
+    const CoarseGroup step = spread<CoarseGroup>(Coarse(length));
+    const CoarseGroup factor = spread<CoarseGroup>(Coarse(Scalar(1) / slope));
+    const CoarseGroup threshold = spread<CoarseGroup>(Coarse(tolerance));
     Best best;
     const int count = problem.row_count;
-    for (int k = 0; k < count; k += lanes) {
-      const Group along = dot_of_six<Group>(load_rows(problem, k), direction);
-      const Group violation = load<Group>(&violation_[index(k)]) - product(step, along);
+    for (int k = 0; k < count; k += coarse_lanes) {
+      const CoarseGroup along = dot_of_six<CoarseGroup>(coarse_rows(problem, k), direction);
+      const CoarseGroup violation = load<CoarseGroup>(&violation_[index(k)]) - product(step, along);
       store(&violation_[index(k)], violation);
       store(&weight_[index(k)],
-            Group(load<Group>(&weight_[index(k)]) - product(product(factor, along), along)));
+            CoarseGroup(load<CoarseGroup>(&weight_[index(k)]) - product(product(factor, along), along)));
       best.meet(violation, weight_at(k), threshold);
     }
     return best.row();
@@ -109,37 +112,45 @@ class RowScan {
   template <class Step>
   void drop(const Problem& problem, const Step& z, Scalar length, const Six<Scalar>& u,
             Scalar curvature) noexcept {
-    const SixGroups direction = spread_all(z), freed = spread_all(u);
-    const Group step = spread<Group>(length), factor = spread<Group>(Scalar(1) / curvature);
+    const SixCoarse direction = spread_all<CoarseGroup>(z), freed = spread_all<CoarseGroup>(u);
+    const CoarseGroup step = spread<CoarseGroup>(Coarse(length));
+    const CoarseGroup factor = spread<CoarseGroup>(Coarse(Scalar(1) / curvature));
     const int count = problem.row_count;
-    for (int k = 0; k < count; k += lanes) {
-      const SixGroups a = load_rows(problem, k);
-      const Group along = dot_of_six<Group>(a, direction), gained = dot_of_six<Group>(a, freed);
-      store(&violation_[index(k)], Group(load<Group>(&violation_[index(k)]) - product(step, along)));
+    for (int k = 0; k < count; k += coarse_lanes) {
+      const SixCoarse a = coarse_rows(problem, k);
+      const CoarseGroup along = dot_of_six<CoarseGroup>(a, direction), gained = dot_of_six<CoarseGroup>(a, freed);
+      store(&violation_[index(k)], CoarseGroup(load<CoarseGroup>(&violation_[index(k)]) - product(step, along)));
       store(&weight_[index(k)],
-            Group(load<Group>(&weight_[index(k)]) + product(product(factor, gained), gained)));
+            CoarseGroup(load<CoarseGroup>(&weight_[index(k)]) + product(product(factor, gained), gained)));
     }
   }
 
  private:
+  using Coarse = std::conditional_t<std::is_same_v<Scalar, double>, float, Scalar>;
+  static constexpr bool is_rounded = !std::is_same_v<Coarse, Scalar>;
+  static constexpr int coarse_lanes = is_rounded && lanes > 1 ? std::min(2 * lanes, 8) : lanes;
   using Group = Lanes<Scalar, lanes>;
   using SixGroups = std::array<Group, 6>;
-  using Best = BestRow<Scalar, lanes>;
-  using Values = std::array<Scalar, std::size_t(Problem::row_capacity)>;
+  using CoarseGroup = Lanes<Coarse, coarse_lanes>;
+  using SixCoarse = std::array<CoarseGroup, 6>;
+  using Best = BestRow<Coarse, coarse_lanes>;
+  // A little longer than a power of two, as the columns of a `RowList`.
+  using Values = std::array<Coarse, std::size_t(Problem::row_capacity + 16)>;
+  struct Nothing {};
   static constexpr double least_share = 1e-3;
 
   /// aᵀQa with Q diagonal.
   class DiagonalForm {
    public:
-    explicit DiagonalForm(const Six<Scalar>& q) noexcept : entries_(spread_all(q)) {}
-    Group operator()(const SixGroups& a) const noexcept {
-      SixGroups image;
+    explicit DiagonalForm(const Six<Scalar>& q) noexcept : entries_(spread_all<CoarseGroup>(q)) {}
+    CoarseGroup operator()(const SixCoarse& a) const noexcept {
+      SixCoarse image;
       for (std::size_t j = 0; j < 6; ++j) image[j] = product(entries_[j], a[j]);
-      return dot_of_six<Group>(a, image);
+      return dot_of_six<CoarseGroup>(a, image);
     }
 
    private:
-    SixGroups entries_;
+    SixCoarse entries_;
   };
   /// aᵀQa with Q symmetric, by the entries on and below the diagonal.
   class FullForm {
@@ -147,87 +158,153 @@ class RowScan {
     explicit FullForm(const SixBySix<Scalar>& q) noexcept {
       for (std::size_t j = 0; j < 6; ++j) {
         for (std::size_t i = j; i < 6; ++i)
-          entries_[j][i] = spread<Group>(i == j ? q[j][i] : q[j][i] + q[j][i]);
+          entries_[j][i] = spread<CoarseGroup>(Coarse(i == j ? q[j][i] : q[j][i] + q[j][i]));
       }
     }
-    Group operator()(const SixGroups& a) const noexcept {
-      SixGroups image;
+    CoarseGroup operator()(const SixCoarse& a) const noexcept {
+      SixCoarse image;
       for (std::size_t j = 0; j < 6; ++j) {
         image[j] = product(entries_[j][j], a[j]);
         for (std::size_t i = j + 1; i < 6; ++i) image[j] += product(entries_[j][i], a[i]);
       }
-      return dot_of_six<Group>(a, image);
+      return dot_of_six<CoarseGroup>(a, image);
     }
 
    private:
-    std::array<SixGroups, 6> entries_;
+    std::array<SixCoarse, 6> entries_;
+  };
+
+  /// bₖ − aₖ·x
+  class Violation {
+   public:
+    Violation(const Scalar* bounds, const Six<Scalar>& x) noexcept : bounds_(bounds), at_(spread_all<Group>(x)) {}
+    Group operator()(const SixGroups& a, int k) const noexcept {
+      return load<Group>(bounds_ + k) - dot_of_six<Group>(a, at_);
+    }
+
+   private:
+    const Scalar* bounds_;
+    SixGroups at_;
+  };
+  /// The same less what rounding makes of it.
+  class Excess {
+   public:
+    Excess(const Scalar* bounds, const Six<Scalar>& x, Scalar rounding) noexcept
+        : violation_(bounds, x), unit_(spread<Group>(rounding)) {}
+    Group operator()(const SixGroups& a, int k) const noexcept {
+      SixGroups size;
+      for (std::size_t j = 0; j < 6; ++j) size[j] = greater(a[j], Group(-a[j]));
+      const Group sum = ((size[0] + size[1]) + (size[2] + size[3])) + (size[4] + size[5]);
+      return violation_(a, k) - product(unit_, sum);
+    }
+
+   private:
+    Violation violation_;
+    Group unit_;
   };
 
   static std::size_t index(int i) noexcept { return std::size_t(i); }
   /// Keeps the score of a row of zeros finite.
-  static Scalar smallest() noexcept {
-    return std::numeric_limits<Scalar>::min() / std::numeric_limits<Scalar>::epsilon();
+  static Coarse smallest() noexcept {
+    return std::numeric_limits<Coarse>::min() / std::numeric_limits<Coarse>::epsilon();
   }
-
-  template <class V>
-  static SixGroups spread_all(const V& v) noexcept {
-    SixGroups groups;
-    for (std::size_t j = 0; j < 6; ++j) groups[j] = spread<Group>(v[j]);
+  template <class Spread, class V>
+  static std::array<Spread, 6> spread_all(const V& v) noexcept {
+    using Number = std::conditional_t<std::is_same_v<Spread, Group>, Scalar, Coarse>;
+    std::array<Spread, 6> groups;
+    for (std::size_t j = 0; j < 6; ++j) groups[j] = spread<Spread>(Number(v[j]));
     return groups;
   }
-  static SixGroups load_rows(const Problem& problem, int k) noexcept {
+  static SixGroups rows(const Problem& problem, int k) noexcept {
     SixGroups a;
     for (int j = 0; j < 6; ++j) a[index(j)] = load<Group>(problem.rows.column(j) + k);
     return a;
   }
-  Group weight_at(int k) const noexcept {
-    return greater(load<Group>(&weight_[index(k)]), load<Group>(&least_weight_[index(k)]));
+  SixCoarse coarse_rows(const Problem& problem, int k) const noexcept {
+    if constexpr (is_rounded) {
+      SixCoarse a;
+      for (std::size_t j = 0; j < 6; ++j) a[j] = load<CoarseGroup>(&rows_[j][index(k)]);
+      return a;
+    } else {
+      return rows(problem, k);
+    }
+  }
+  CoarseGroup weight_at(int k) const noexcept {
+    return greater(load<CoarseGroup>(&weight_[index(k)]), load<CoarseGroup>(&least_weight_[index(k)]));
+  }
+
+  /// Computes the groups of `Scalar` from row k on that make one group, and rounds them.
+  template <class Compute>
+  static CoarseGroup coarse_group(int k, const Compute& compute) noexcept {
+    if constexpr (coarse_lanes > lanes) {
+      return rounded<CoarseGroup>(compute(k), compute(k + lanes));
+    } else {
+      return rounded<CoarseGroup>(compute(k));
+    }
+  }
+  SixCoarse round_rows(const Problem& problem, int k) noexcept {
+    SixCoarse a;
+#pragma GCC unroll 6
+    for (int j = 0; j < 6; ++j) {
+      const CoarseGroup entries = coarse_group(k, [&](int at) { return load<Group>(problem.rows.column(j) + at); });
+      if constexpr (is_rounded) store(&rows_[index(j)][index(k)], entries);
+      a[index(j)] = entries;
+    }
+    return a;
+  }
+  /// A group of violations of which what lies behind the last row is none, however it is followed.
+  /// @param count  of rows, from the first of the group on
+  template <class Number, int size>
+  static Lanes<Number, size> only_rows(const Lanes<Number, size>& violation, int count) noexcept {
+    if constexpr (size > 1) {
+      if (count < size)
+        return first_lanes<Number, size>(count) ? violation
+                                                : spread<Lanes<Number, size>>(-std::numeric_limits<Number>::infinity());
+    }
+    return violation;
+  }
+  template <class Value>
+  static CoarseGroup coarse_violation(const Problem& problem, int k, const Value& value_of) noexcept {
+    const CoarseGroup violation = coarse_group(k, [&](int at) { return value_of(rows(problem, at), at); });
+    return only_rows<Coarse, coarse_lanes>(violation, problem.row_count - k);
   }
 
   template <class Form>
   int start(const Problem& problem, const Scalar* bounds, const Form& form, const Six<Scalar>& x,
             Scalar tolerance) noexcept {
-    const SixGroups at = spread_all(x);
-    const Group share = spread<Group>(Scalar(least_share)), least = spread<Group>(smallest());
+    const Violation violation_of(bounds, x);
+    const CoarseGroup share = spread<CoarseGroup>(Coarse(least_share)), least = spread<CoarseGroup>(smallest());
+    const CoarseGroup threshold = spread<CoarseGroup>(Coarse(tolerance));
     Best best;
-    auto is_above = Group{} > Group{};
-    for_each_group(problem, tolerance, [&](int k, const Group& threshold) {
-      const SixGroups a = load_rows(problem, k);
-      const Group violation = load<Group>(bounds + k) - dot_of_six<Group>(a, at);
-      const Group weight = form(a) + least;
+    for (int k = 0; k < problem.row_count; k += coarse_lanes) {
+      const CoarseGroup violation = coarse_violation(problem, k, violation_of);
+      const CoarseGroup weight = form(round_rows(problem, k)) + least;
       store(&violation_[index(k)], violation);
       store(&weight_[index(k)], weight);
-      store(&least_weight_[index(k)], Group(product(share, weight) + least));
-      is_above |= best.meet(violation, weight, threshold);
-    });
-    clear_rest(problem);
-    const int row = best.row();
-    return row < 0 && any(is_above) ? first_violated(problem, tolerance) : row;
+      store(&least_weight_[index(k)], CoarseGroup(product(share, weight) + least));
+      best.meet(violation, weight, threshold);
+    }
+    return best.row();
   }
 
   template <class Form>
   void weigh(const Problem& problem, const Form& whole, const FullForm& free) noexcept {
-    const Group share = spread<Group>(Scalar(least_share)), least = spread<Group>(smallest());
-    for (int k = 0; k < problem.row_count; k += lanes) {
-      const SixGroups a = load_rows(problem, k);
+    const CoarseGroup share = spread<CoarseGroup>(Coarse(least_share)), least = spread<CoarseGroup>(smallest());
+    for (int k = 0; k < problem.row_count; k += coarse_lanes) {
+      const SixCoarse a = round_rows(problem, k);
       store(&weight_[index(k)], free(a));
-      store(&least_weight_[index(k)], Group(product(share, whole(a)) + least));
+      store(&least_weight_[index(k)], CoarseGroup(product(share, whole(a)) + least));
     }
   }
 
-  template <class Violation>
-  bool measure(const Problem& problem, const Scalar* bounds, Scalar tolerance,
-               const Violation& violation_of) noexcept {
+  template <class Value>
+  static bool is_above(const Problem& problem, Scalar tolerance, const Value& value_of) noexcept {
+    const Group threshold = spread<Group>(tolerance);
     auto is_above = Group{} > Group{};
-    for_each_group(problem, tolerance, [&](int k, const Group& threshold) {
-      const Group violation = violation_of(load_rows(problem, k), load<Group>(bounds + k));
-      store(&violation_[index(k)], violation);
-      is_above |= violation > threshold;
-    });
-    clear_rest(problem);
+    for (int k = 0; k < problem.row_count; k += lanes)
+      is_above |= only_rows<Scalar, lanes>(value_of(rows(problem, k), k), problem.row_count - k) > threshold;
     return any(is_above);
   }
-
   template <class Comparison>
   static bool any(const Comparison& comparison) noexcept {
     if constexpr (lanes == 1) {
@@ -239,32 +316,8 @@ class RowScan {
     }
   }
 
-  /// What a last group holds behind the last row is not violated, however it is followed.
-  void clear_rest(const Problem& problem) noexcept {
-    for (int k = problem.row_count; k % lanes != 0; ++k) set_active(k);
-  }
-
-  /// Calls `visit` with every group of rows and with a threshold that no number behind the last row exceeds.
-  template <class Visit>
-  static void for_each_group(const Problem& problem, Scalar tolerance, const Visit& visit) noexcept {
-    Group threshold = spread<Group>(tolerance);
-    for (int k = 0; k < problem.row_count; k += lanes) {
-      if constexpr (lanes > 1) {
-        for (int i = lanes; k + i > problem.row_count; --i)
-          threshold[i - 1] = std::numeric_limits<Scalar>::infinity();
-      }
-      visit(k, threshold);
-    }
-  }
-
-  /// Where violations are so large that scores are no numbers, any row will do.
-  int first_violated(const Problem& problem, Scalar tolerance) const noexcept {
-    for (int k = 0; k < problem.row_count; ++k) {
-      if (violation_[index(k)] > tolerance) return k;
-    }
-    return -1;
-  }
-
+  // Columns of the problem's rows, where they are rounded.
+  alignas(64) [[no_unique_address]] std::conditional_t<is_rounded, std::array<Values, 6>, Nothing> rows_;
   alignas(64) Values violation_;     // bₖ − aₖ·x; −∞ for active rows
   alignas(64) Values weight_;        // aₖᵀPaₖ
   alignas(64) Values least_weight_;  // a share of aₖᵀH⁻¹aₖ
