@@ -39,12 +39,9 @@ class ActiveOperators {
   void reset(const InverseHessian<Scalar>& inverse) noexcept {
     used_ = 0;
     is_behind_ = false;
-    if (inverse.is_diagonal()) {
-      for (int j = 0; j < 6; ++j) {
-        Column& column = projector_[index(j)];
-        for (int g = 0; g < 6; g += lanes)
-          store(&column[index(g)], with_lane<Scalar, lanes>(Group{}, j - g, inverse.diagonal()[index(j)]));
-      }
+    is_diagonal_ = inverse.is_diagonal();
+    if (is_diagonal_) {
+      std::copy_n(inverse.diagonal().begin(), 6, diagonal_.begin());
     } else {
       for (std::size_t j = 0; j < 6; ++j) std::copy_n(inverse.matrix()[j].begin(), 6, projector_[j].begin());
     }
@@ -61,6 +58,7 @@ class ActiveOperators {
   }
   SixBySix<Scalar> projector() noexcept {
     catch_up();
+    if (used_ == 0 && is_diagonal_) spread_diagonal();
     SixBySix<Scalar> p;
     for (std::size_t j = 0; j < 6; ++j) std::copy_n(projector_[j].begin(), 6, p[j].begin());
     return p;
@@ -68,6 +66,10 @@ class ActiveOperators {
 
   /// Computes the images of a vector.
   void apply(const Six<Scalar>& v) noexcept {
+    if (used_ == 0 && is_diagonal_) {
+      for (std::size_t j = 0; j < 6; ++j) image_.step[j] = product(diagonal_[j], v[j]);
+      return;
+    }
     catch_up();
     SixGroups at;
     for (std::size_t j = 0; j < 6; ++j) at[j] = spread<Group>(v[j]);
@@ -206,6 +208,12 @@ class ActiveOperators {
     store(group, with_lane<Scalar, lanes>(load<Group>(group), i - first, value));
   }
 
+  void spread_diagonal() noexcept {
+    for (int j = 0; j < 6; ++j) {
+      for (int g = 0; g < 6; g += lanes)
+        store(&projector_[index(j)][index(g)], with_lane<Scalar, lanes>(Group{}, j - g, diagonal_[index(j)]));
+    }
+  }
   /// Adds the last slot to both operators.
   void catch_up() noexcept {
     if (!is_behind_) return;
@@ -214,6 +222,7 @@ class ActiveOperators {
     const Scalar factor = Scalar(1) / slope_;
     Six<Scalar> direction;
     for (std::size_t j = 0; j < 6; ++j) direction[j] = image_.step[j] * factor;
+    if (slot == 0 && is_diagonal_) spread_diagonal();
     subtract_outer(projector_, 6, image_.step, direction);
     // With a share of −1 the row's own numbers, 0 until now, become the direction.
     Group shares{};
@@ -246,12 +255,14 @@ class ActiveOperators {
     }
   }
 
-  Columns projector_{};  // P
+  Columns projector_{};  // P; while nothing is active and H⁻¹ is diagonal, some numbers
+  Column diagonal_{};    // H⁻¹, where it is diagonal
   Columns duals_{};      // N*; in a group of lanes that is partly used, 0 behind the slots in use
   SixBySix<Scalar> normals_{};
   Image image_{};
   Scalar slope_{};
   int used_ = 0;
+  bool is_diagonal_ = false;
   bool is_behind_ = false;  // both operators, by the last slot, whose row the image is of
 };
 
