@@ -303,7 +303,7 @@ class DualActiveSet {
   Entry enter(const Problem& problem, int limit, Solution& solution, int& p) noexcept {
     const int row = p;
     const Six a = row_of(problem, row);
-    const Scalar excused = detail::product(detail::rounding_at(x_), detail::size_of(a));
+    const Scalar excused = 8 * std::numeric_limits<Scalar>::epsilon() * detail::size_of(detail::multiply(a, x_));
     const auto lacking = [&] { return bounds_[row] - detail::dot(a, x_); };
     Scalar violation = lacking();
     p = -1;
