@@ -43,6 +43,7 @@ class ActiveOperators {
     if (is_diagonal_) {
       std::copy_n(inverse.diagonal().begin(), 6, diagonal_.begin());
     } else {
+#pragma GCC unroll 6
       for (std::size_t j = 0; j < 6; ++j) std::copy_n(inverse.matrix()[j].begin(), 6, projector_[j].begin());
     }
   }
@@ -53,6 +54,7 @@ class ActiveOperators {
   Six<Scalar> dual(int slot) noexcept {
     catch_up();
     Six<Scalar> row;
+#pragma GCC unroll 6
     for (std::size_t j = 0; j < 6; ++j) row[j] = duals_[j][index(slot)];
     return row;
   }
@@ -60,6 +62,7 @@ class ActiveOperators {
     catch_up();
     if (used_ == 0 && is_diagonal_) spread_diagonal();
     SixBySix<Scalar> p;
+#pragma GCC unroll 6
     for (std::size_t j = 0; j < 6; ++j) std::copy_n(projector_[j].begin(), 6, p[j].begin());
     return p;
   }
@@ -67,11 +70,13 @@ class ActiveOperators {
   /// Computes the images of a vector.
   void apply(const Six<Scalar>& v) noexcept {
     if (used_ == 0 && is_diagonal_) {
+#pragma GCC unroll 6
       for (std::size_t j = 0; j < 6; ++j) image_.step[j] = product(diagonal_[j], v[j]);
       return;
     }
     catch_up();
     SixGroups at;
+#pragma GCC unroll 6
     for (std::size_t j = 0; j < 6; ++j) at[j] = spread<Group>(v[j]);
     multiply_columns(projector_, 6, at, image_.step);
     multiply_columns(duals_, used_, at, image_.share);
@@ -84,6 +89,7 @@ class ActiveOperators {
     Six<Scalar> along{};
     for (int i = 0; i < used_; ++i) along[index(i)] = dot_of_six<Scalar>(normal(i), image_.step);
     const Six<Scalar> excess = step_of(along);
+#pragma GCC unroll 6
     for (std::size_t j = 0; j < 6; ++j) image_.step[j] -= excess[j];
   }
 
@@ -92,6 +98,7 @@ class ActiveOperators {
     catch_up();
     Six<Scalar> step{};
     for (std::size_t i = 0; i < index(used_); ++i) {
+#pragma GCC unroll 6
       for (std::size_t j = 0; j < 6; ++j) step[j] += product(along[i], duals_[j][i]);
     }
     return step;
@@ -117,6 +124,7 @@ class ActiveOperators {
     const Scalar factor = Scalar(1) / curvature;
     Column gained{};
     Six<Scalar> direction;
+#pragma GCC unroll 6
     for (std::size_t j = 0; j < 6; ++j) {
       gained[j] = -dual[j];  // P gains what N* loses
       direction[j] = dual[j] * factor;
@@ -209,6 +217,7 @@ class ActiveOperators {
   }
 
   void spread_diagonal() noexcept {
+#pragma GCC unroll 6
     for (int j = 0; j < 6; ++j) {
       for (int g = 0; g < 6; g += lanes)
         store(&projector_[index(j)][index(g)], with_lane<Scalar, lanes>(Group{}, j - g, diagonal_[index(j)]));
@@ -221,6 +230,7 @@ class ActiveOperators {
     const int slot = used_ - 1, first = slot - slot % lanes;
     const Scalar factor = Scalar(1) / slope_;
     Six<Scalar> direction;
+#pragma GCC unroll 6
     for (std::size_t j = 0; j < 6; ++j) direction[j] = image_.step[j] * factor;
     if (slot == 0 && is_diagonal_) spread_diagonal();
     subtract_outer(projector_, 6, image_.step, direction);
@@ -240,6 +250,7 @@ class ActiveOperators {
                                Column& image) noexcept {
     for (std::size_t g = 0; g < index(count); g += std::size_t(lanes)) {
       SixGroups column;
+#pragma GCC unroll 6
       for (std::size_t j = 0; j < 6; ++j) column[j] = load<Group>(&columns[j][g]);
       store(&image[g], dot_of_six<Group>(column, at));
     }
@@ -248,6 +259,7 @@ class ActiveOperators {
                              const Six<Scalar>& right) noexcept {
     for (std::size_t g = 0; g < index(count); g += std::size_t(lanes)) {
       const Group entries = load<Group>(&left[g]);
+#pragma GCC unroll 6
       for (std::size_t j = 0; j < 6; ++j) {
         const Group change = product<Group>(entries, spread<Group>(right[j]));
         store(&columns[j][g], Group(load<Group>(&columns[j][g]) - change));

@@ -200,6 +200,7 @@ class DualActiveSet {
 
   static Six row_of(const Problem& problem, int k) noexcept {
     Six a;
+#pragma GCC unroll 6
     for (int j = 0; j < 6; ++j) a[index(j)] = problem.rows.column(j)[k];
     return a;
   }
@@ -247,6 +248,7 @@ class DualActiveSet {
       const Six dual = operators_.dual(slot);
       const Scalar curvature = curve(dual);
       const Scalar step = -*least / curvature;
+#pragma GCC unroll 6
       for (std::size_t j = 0; j < 6; ++j) x_[j] += detail::product(step, dual[j]);
       move_multipliers(-step);
       release(slot, dual, curvature);
@@ -261,9 +263,11 @@ class DualActiveSet {
   bool is_off(int count, const NormalOf& normal_of, const Multipliers& multipliers, const Six& lacking, Six& residual) const noexcept {
     const Six bent = inverse_.hessian_times(x_);
     Scalar most_lacking(0);
+#pragma GCC unroll 6
     for (std::size_t j = 0; j < 6; ++j) residual[j] = bent[j] + gradient_[j];
     for (int i = 0; i < count; ++i) {
       const Six& a = normal_of(i);
+#pragma GCC unroll 6
       for (std::size_t j = 0; j < 6; ++j) residual[j] -= detail::product(multipliers[index(i)], a[j]);
       most_lacking = std::max(most_lacking, detail::magnitude(lacking[index(i)]));
     }
@@ -290,8 +294,10 @@ class DualActiveSet {
 
     const Six across = operators_.step_of(lacking);
     const Six pulled = inverse_.hessian_times(across);
+#pragma GCC unroll 6
     for (std::size_t j = 0; j < 6; ++j) residual[j] += pulled[j];
     operators_.apply(residual);
+#pragma GCC unroll 6
     for (std::size_t j = 0; j < 6; ++j) x_[j] += across[j] - operators_.image().step[j];
     move_multipliers(Scalar(-1));
     drop_negative();
@@ -375,6 +381,7 @@ class DualActiveSet {
       slack -= detail::product(share, allowed(normal));
       const Scalar drift = bounds_[slots_[index(i)]] - detail::dot(normal, x_);  // of x off this row
       violation -= detail::product(share, drift);
+#pragma GCC unroll 6
       for (std::size_t j = 0; j < 6; ++j) rest[j] -= detail::product(share, normal[j]);
     }
     const Scalar allowed_rest =
@@ -394,6 +401,7 @@ class DualActiveSet {
 
   /// A step along P·a, and what it does to the multipliers.
   void move(const Scalar& step) noexcept {
+#pragma GCC unroll 6
     for (std::size_t j = 0; j < 6; ++j) x_[j] += detail::product(step, operators_.image().step[j]);
     move_multipliers(step);
   }

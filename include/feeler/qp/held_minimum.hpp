@@ -39,6 +39,7 @@ class HeldMinimum {
     for (const int row : start.rows) {
       if (row < 0 || row >= problem.row_count) return false;
       Six<Scalar>& a = normals_[count];
+#pragma GCC unroll 6
       for (int j = 0; j < 6; ++j) a[std::size_t(j)] = problem.rows.column(j)[row];
       y[count] = hessian.solve_lower(a);
       scaled[count] = multiply(d_inverse, y[count]);
@@ -63,8 +64,10 @@ class HeldMinimum {
     // Forces that cancel do so before they are scaled.
     Six<Scalar> force = home;
     for (std::size_t i = 0; i < count; ++i) {
+#pragma GCC unroll 6
       for (std::size_t j = 0; j < 6; ++j) force[j] -= product(multipliers_[i], y[i][j]);
     }
+#pragma GCC unroll 6
     for (std::size_t j = 0; j < 6; ++j) force[j] *= -d_inverse[j];
     x_ = hessian.solve_upper(force);
     if (look(bounds, start) > rough() * largest_of(x_)) {
@@ -99,9 +102,11 @@ class HeldMinimum {
     Six<Scalar> along = lacking_, push{};
     solve(l, pivot_inverse, count, along);
     for (std::size_t i = count; i-- > 0;) {
+#pragma GCC unroll 6
       for (std::size_t j = 0; j < 6; ++j) push[j] += product(along[i], scaled[i][j]);
     }
     push = hessian.solve_upper(push);
+#pragma GCC unroll 6
     for (std::size_t j = 0; j < 6; ++j) x_[j] += push[j];
   }
 

@@ -145,6 +145,7 @@ class RowScan {
     explicit DiagonalForm(const Six<Scalar>& q) noexcept : entries_(spread_all<CoarseGroup>(q)) {}
     CoarseGroup operator()(const SixCoarse& a) const noexcept {
       SixCoarse image;
+#pragma GCC unroll 6
       for (std::size_t j = 0; j < 6; ++j) image[j] = product(entries_[j], a[j]);
       return dot_of_six<CoarseGroup>(a, image);
     }
@@ -156,15 +157,19 @@ class RowScan {
   class FullForm {
    public:
     explicit FullForm(const SixBySix<Scalar>& q) noexcept {
+#pragma GCC unroll 6
       for (std::size_t j = 0; j < 6; ++j) {
+#pragma GCC unroll 6
         for (std::size_t i = j; i < 6; ++i)
           entries_[j][i] = spread<CoarseGroup>(Coarse(i == j ? q[j][i] : q[j][i] + q[j][i]));
       }
     }
     CoarseGroup operator()(const SixCoarse& a) const noexcept {
       SixCoarse image;
+#pragma GCC unroll 6
       for (std::size_t j = 0; j < 6; ++j) {
         image[j] = product(entries_[j][j], a[j]);
+#pragma GCC unroll 6
         for (std::size_t i = j + 1; i < 6; ++i) image[j] += product(entries_[j][i], a[i]);
       }
       return dot_of_six<CoarseGroup>(a, image);
@@ -193,6 +198,7 @@ class RowScan {
         : violation_(bounds, x), unit_(spread<Group>(rounding)) {}
     Group operator()(const SixGroups& a, int k) const noexcept {
       SixGroups size;
+#pragma GCC unroll 6
       for (std::size_t j = 0; j < 6; ++j) size[j] = greater(a[j], Group(-a[j]));
       const Group sum = ((size[0] + size[1]) + (size[2] + size[3])) + (size[4] + size[5]);
       return violation_(a, k) - product(unit_, sum);
@@ -212,17 +218,20 @@ class RowScan {
   static std::array<Spread, 6> spread_all(const V& v) noexcept {
     using Number = std::conditional_t<std::is_same_v<Spread, Group>, Scalar, Coarse>;
     std::array<Spread, 6> groups;
+#pragma GCC unroll 6
     for (std::size_t j = 0; j < 6; ++j) groups[j] = spread<Spread>(Number(v[j]));
     return groups;
   }
   static SixGroups rows(const Problem& problem, int k) noexcept {
     SixGroups a;
+#pragma GCC unroll 6
     for (int j = 0; j < 6; ++j) a[index(j)] = load<Group>(problem.rows.column(j) + k);
     return a;
   }
   SixCoarse coarse_rows(const Problem& problem, int k) const noexcept {
     if constexpr (is_rounded) {
       SixCoarse a;
+#pragma GCC unroll 6
       for (std::size_t j = 0; j < 6; ++j) a[j] = load<CoarseGroup>(&rows_[j][index(k)]);
       return a;
     } else {

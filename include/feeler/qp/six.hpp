@@ -34,6 +34,7 @@ inline Scalar dot(const Six<Scalar>& a, const Six<Scalar>& b) noexcept {
 template <class Scalar>
 inline Six<Scalar> multiply(const Six<Scalar>& diagonal, const Six<Scalar>& v) noexcept {
   Six<Scalar> image;
+#pragma GCC unroll 6
   for (std::size_t j = 0; j < 6; ++j) image[j] = product(diagonal[j], v[j]);
   return image;
 }
@@ -41,6 +42,7 @@ inline Six<Scalar> multiply(const Six<Scalar>& diagonal, const Six<Scalar>& v) n
 template <class Scalar>
 inline Six<Scalar> multiply(const SixBySix<Scalar>& m, const Six<Scalar>& v) noexcept {
   Six<Scalar> image;
+#pragma GCC unroll 6
   for (std::size_t j = 0; j < 6; ++j) image[j] = dot(m[j], v);
   return image;
 }
