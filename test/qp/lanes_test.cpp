@@ -58,6 +58,15 @@ BOOST_AUTO_TEST_CASE(any_number_of_lanes_gives_the_same_bits_in_float) {
 
 namespace {
 
+template <class Check>
+void for_every_group(const Check& check) {
+  check.template operator()<double, 2>();
+  check.template operator()<double, 4>();
+  check.template operator()<double, 8>();
+  check.template operator()<float, 4>();
+  check.template operator()<float, 8>();
+}
+
 template <class Scalar, int lanes>
 void check_one_lane_changes() {
   using Group = feeler::detail::Lanes<Scalar, lanes>;
@@ -106,11 +115,7 @@ void check_rounding() {
 }  // namespace
 
 BOOST_AUTO_TEST_CASE(the_first_lanes_and_the_largest_are_found) {
-  check_first_and_largest_lanes<double, 2>();
-  check_first_and_largest_lanes<double, 4>();
-  check_first_and_largest_lanes<double, 8>();
-  check_first_and_largest_lanes<float, 4>();
-  check_first_and_largest_lanes<float, 8>();
+  for_every_group([]<class Scalar, int lanes>() { check_first_and_largest_lanes<Scalar, lanes>(); });
 }
 
 BOOST_AUTO_TEST_CASE(groups_are_rounded_in_the_order_of_their_lanes) {
@@ -120,11 +125,7 @@ BOOST_AUTO_TEST_CASE(groups_are_rounded_in_the_order_of_their_lanes) {
 }
 
 BOOST_AUTO_TEST_CASE(one_lane_changes_and_none_where_there_is_no_such_lane) {
-  check_one_lane_changes<double, 2>();
-  check_one_lane_changes<double, 4>();
-  check_one_lane_changes<double, 8>();
-  check_one_lane_changes<float, 4>();
-  check_one_lane_changes<float, 8>();
+  for_every_group([]<class Scalar, int lanes>() { check_one_lane_changes<Scalar, lanes>(); });
 }
 
 BOOST_AUTO_TEST_CASE(the_best_row_scores_within_an_eighth_of_any_other) {

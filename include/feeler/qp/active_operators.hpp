@@ -216,6 +216,7 @@ class ActiveOperators {
     store(group, with_lane<Scalar, lanes>(load<Group>(group), i - first, value));
   }
 
+  /// Writes P where nothing is active and H⁻¹ is diagonal.
   void spread_diagonal() noexcept {
 #pragma GCC unroll 6
     for (int j = 0; j < 6; ++j) {
@@ -223,6 +224,7 @@ class ActiveOperators {
         store(&projector_[index(j)][index(g)], with_lane<Scalar, lanes>(Group{}, j - g, diagonal_[index(j)]));
     }
   }
+
   /// Adds the last slot to both operators.
   void catch_up() noexcept {
     if (!is_behind_) return;

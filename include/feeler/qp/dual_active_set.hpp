@@ -216,6 +216,8 @@ class DualActiveSet {
     return violation / slope * detail::largest_of(operators_.image().step) > far * (detail::largest_of(x_) + violation / detail::size_of(a));
   }
 
+  /// a·H⁻¹·a, to all digits.
+  Scalar whole_weight(const Six& a) const noexcept { return detail::dot(a, inverse_.inverse_times(a)); }
   Scalar slope_along(const Six& a) const noexcept { return detail::dot_of_six<Scalar>(a, operators_.image().step); }
 
   void mark_active() noexcept {
@@ -230,7 +232,7 @@ class DualActiveSet {
       if (slots_[index(i)] == row) return;
     }
     const Six a = row_of(problem, row);
-    const Scalar whole = detail::dot(a, inverse_.inverse_times(a));
+    const Scalar whole = whole_weight(a);
     operators_.apply(a);
     const Scalar slope = slope_along(a);
     if (!(slope > Scalar(1e-3) * whole)) return;
@@ -309,7 +311,7 @@ class DualActiveSet {
   Entry enter(const Problem& problem, int limit, Solution& solution, int& p) noexcept {
     const int row = p;
     const Six a = row_of(problem, row);
-    const Scalar excused = 8 * std::numeric_limits<Scalar>::epsilon() * detail::size_of(detail::multiply(a, x_));
+    const Scalar excused = detail::rounding_of_dot(a, x_);
     const auto lacking = [&] { return bounds_[row] - detail::dot(a, x_); };
     Scalar violation = lacking();
     p = -1;
@@ -320,7 +322,7 @@ class DualActiveSet {
       operators_.apply(a);
       Scalar slope = slope_along(a);
       if (!(slope >= Scalar(1e-3) * whole)) {
-        whole = detail::dot(a, inverse_.inverse_times(a));
+        whole = whole_weight(a);
         operators_.project_again();
         slope = slope_along(a);
       }

@@ -68,5 +68,10 @@ template <class Scalar>
 inline Scalar rounding_at(const Six<Scalar>& x) noexcept {
   return 8 * std::numeric_limits<Scalar>::epsilon() * largest_of(x);
 }
+/// Rounding of a·x itself.
+template <class Scalar>
+inline Scalar rounding_of_dot(const Six<Scalar>& a, const Six<Scalar>& x) noexcept {
+  return 8 * std::numeric_limits<Scalar>::epsilon() * size_of(multiply(a, x));
+}
 
 }  // namespace feeler::detail
