@@ -147,6 +147,32 @@ BOOST_AUTO_TEST_CASE(a_shaft_that_is_stopped_anywhere_comes_to_rest) {
   }
 }
 
+BOOST_AUTO_TEST_CASE(a_shaft_whose_hand_goes_on_is_not_late_for_want_of_a_triangle) {
+  // A tooth comes to a wall that blocks no motion as they are cut short by what else is met. Whether a tick finds it in its work hangs on a
+  // nanometre of the hand: with the default budget 3 of 4 shafts were late for 40 to 170 ticks, with 190 every other for 40 to 75.
+  constexpr int most_beyond_its_way = 5;
+  for (const int budget : {Settings<double>{}.work_budget, 190, 250}) {
+    PressedShaft shaft(2e-4, budget);
+    int longest = 0;
+    for (int shift = 0; shift < ticks_to_run(8, 8); ++shift) {
+      BOOST_TEST((shaft.renderer.reset(shaft.scene.start) == Status::converged));
+      int late = 0;  // ticks in a row
+      double way = 0;
+      for (int i = 1; i <= ticks_to_run(3500); ++i) {
+        Pose<double> device = shaft.scene.motion(i * 1e-3);
+        device.translation += 1e-9 * Vector3<double>(shift, 2 * (7 * shift % 13), -5 * shift % 11);
+        const Pose<double> from = shaft.renderer.tick().graphic_pose;
+        const auto& tick = shaft.renderer.update(device);
+        if (tick.converged()) late = 0, way = 0;
+        else ++late, way += pose_error(from, tick.graphic_pose).at(0.018);
+        longest = std::max(longest, late - int(std::ceil(way / shaft.renderer.settings().trust_radius)));
+      }
+    }
+    BOOST_TEST_MESSAGE("budget " << budget << ": late for at most " << longest << " ticks more than its way has trust radii");
+    BOOST_TEST(longest <= most_beyond_its_way, "budget " << budget << ": late for " << longest << " ticks");
+  }
+}
+
 BOOST_AUTO_TEST_CASE(the_first_touch_takes_no_longer_than_a_few_ticks) {
   for (const double clearance : {1e-3, 1e-5, 0.0}) {
     BOOST_TEST_CONTEXT("clearance " << clearance) {

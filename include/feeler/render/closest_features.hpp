@@ -35,7 +35,7 @@ class ClosestFeaturesFollower {
     pose_ = pose;
     linearisation_.clear();
     certificate_.clear();
-    goes_on_ = false;
+    goes_on_ = takes_first_alone_ = false;
     budget_.reset();
     limits_.reset(scene.trust_radius());
   }
@@ -91,6 +91,7 @@ class ClosestFeaturesFollower {
     bool is_home = false;        // and it ends at the haptic pose
     bool is_at_rest = false;     // measured where it starts, the tool would stay
     bool is_taken_back = false;  // its second step took back the first, and what stopped the two holds the tool
+    bool goes_back = false;      // with contacts kept from where it starts, its later steps took back most of the first
     Scalar restoration = 0;      // energy that it may cost to win the margin back [m²]
   };
 
@@ -129,7 +130,9 @@ class ClosestFeaturesFollower {
     do {
       ++tick.iterations;
       budget_.begin_iteration(tick.work);
-      const Proposal proposal = propose(scene, came_to_nothing ? 1 : maximum_rounds, tick);
+      const bool is_first_alone = came_to_nothing || takes_first_alone_;
+      const Proposal proposal = propose(scene, is_first_alone ? 1 : maximum_rounds, tick);
+      takes_first_alone_ = proposal.goes_back;
       const Scalar length = scene.length_of(proposal.motion, pose_);
       if (!proposal.is_settled && !came_to_nothing && length < very_short(scene)) {
         // One linearisation takes back what another asks for, as a triangle is missing from both: the first alone will meet it.
@@ -151,6 +154,7 @@ class ClosestFeaturesFollower {
       }
       const auto result = certify(scene, proposal.motion, tick);
       if (result.is_exhausted) {
+        takes_first_alone_ = is_first_alone;
         // What was found to block is real, and saves work next time. Late in a tick it was work that lacked, not a shorter motion.
         if (!linearisation_.admit(scene, result) && budget_.is_first_iteration()) limits_.shorten(linearisation_.is_empty(), length / 8);
       } else {
@@ -207,7 +211,7 @@ class ClosestFeaturesFollower {
     Proposal proposal;
     Pose<Scalar> pose = pose_;
     bool rests_on_assumption = false, is_taken_back = false;
-    Scalar previous(0);
+    Scalar first(0), previous(0);
     for (int round = 0; round < rounds && !budget_.ends_motion(tick.work, round); ++round) {
       const bool is_measured = !(proposal.is_capped && linearisation_.carry_to(scene, pose, tick)) &&
                                linearise(scene, pose, round == 0, rounds > 1, !rests_on_assumption, tick);
@@ -223,7 +227,10 @@ class ClosestFeaturesFollower {
       linearisation_.note_tight_pairs();
       linearisation_.learn_passed(scene, tick);
       const Scalar last = scene.length_of(leg.step, pose);
-      if (round == 0) proposal.is_at_rest = is_measured && last < very_short(scene) / 100;
+      if (round == 0) {
+        first = last;
+        proposal.is_at_rest = is_measured && last < very_short(scene) / 100;
+      }
       const Scalar longest = limits_.longest(linearisation_.is_empty());
       // Where the optimum is flat a step may be of more than a turn, of which a pose would not know the direction.
       if (!proposal.is_capped && last > 2 * longest) leg = leg_of(scene, pose, leg.step * (2 * longest / last));
@@ -252,6 +259,7 @@ class ClosestFeaturesFollower {
       const bool rests_on_kept = problem.rests_on_kept();
       proposal.is_home = proposal.is_free && !proposal.is_capped && scene.has_led_to(target_, pose, length);
       proposal.is_taken_back = is_taken_back && rests_on_kept && last < very_short(scene) && !proposal.is_capped;
+      proposal.goes_back = rests_on_kept && length < first / 4 && !proposal.is_capped;
       proposal.is_settled =
           (is_short && is_measured && !rests_on_assumption && !rests_on_kept && problem.keeps_features()) || proposal.is_home;
       if (proposal.is_settled || proposal.is_capped || (is_short && rests_on_kept)) return proposal;
@@ -358,6 +366,7 @@ class ClosestFeaturesFollower {
   Pose<Scalar> target_;   // the haptic pose
   Twist<Scalar> off_;     // of the certified pose from it
   bool goes_on_ = false;  // the last tick left motion for this one
+  bool takes_first_alone_ = false;  // the next motion, maybe in the next tick, is the first step: the last went back, as a triangle is missing
   WorkBudget budget_;
   StepLimits<Scalar> limits_;
   Linearisation<ToolType, Solver> linearisation_;
