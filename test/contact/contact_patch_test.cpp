@@ -367,4 +367,24 @@ BOOST_AUTO_TEST_CASE(the_rows_of_any_pair_are_separations_that_are_true_at_the_p
   }
 }
 
+BOOST_AUTO_TEST_CASE(a_contact_about_a_corner_does_not_outlast_a_slide_in_which_its_normal_turns_by_a_hundredth) {
+  const Box box(Vector(0.03, 0.02, 0.01));
+  const Mesh mesh = spike();
+  const Eigen::Quaterniond on_its_corner = Eigen::Quaterniond::FromTwoVectors(Vector(-0.03, -0.02, -0.01), -Vector::UnitZ());
+  for (const double gap : {1e-6, 1e-5}) {
+    const double height = Vector(0.03, 0.02, 0.01).norm() + gap;
+    const Found found = find(box, mesh, 0, at({0, 0, height}, on_its_corner));
+    BOOST_TEST_REQUIRE(found.rows.size() == 1);
+    const auto& row = found.rows[0];
+    BOOST_TEST(std::abs(row.gap - gap) < 1e-15);
+    const auto slide = [](double length) {
+      feeler::Vector6<double> step = feeler::Vector6<double>::Zero();
+      step[0] = length;
+      return step;
+    };
+    BOOST_TEST(row.outlasts(slide(gap / 1000)));
+    BOOST_TEST(!row.outlasts(slide(gap / 100)));
+  }
+}
+
 BOOST_AUTO_TEST_SUITE_END()

@@ -355,12 +355,13 @@ class ContactPatch {
     }
   }
 
-  /// A row whose features meet anywhere within `room` of the point. About a corner the normal turns within the gap: there is no room.
+  /// A row whose features meet anywhere within `room` of the point. About a corner the normal turns within the gap, and there is next to no room:
+  /// with a twentieth of the gap a tool that was about to slip off a ridge passed for one at rest.
   [[gnu::flatten, gnu::noinline]]
   Row row_of(FeaturePair kind, const Vector& normal, const Vector& point, Scalar gap, Scalar room = Scalar(0)) const noexcept {
     Row row;
     row.kind = kind;
-    row.room = std::max({room, gap / 20, seam_});
+    row.room = std::max({room, gap / 64, seam_});
     row.normal = world_from_tool_ * normal;
     row.arm = world_from_tool_ * (point - reference_);
     row.gap = gap;
