@@ -101,6 +101,33 @@ BOOST_AUTO_TEST_CASE(a_slot_that_is_too_narrow_is_infeasible_and_the_conflict_na
   BOOST_TEST(solution.conflict[0] + solution.conflict[1] == 3);
 }
 
+BOOST_AUTO_TEST_CASE(a_problem_with_a_row_of_no_numbers_is_never_called_solved) {
+  constexpr double infinity = std::numeric_limits<double>::infinity(), nothing = std::numeric_limits<double>::quiet_NaN();
+  DualActiveSet<double> solver;
+  for (const int count : {1, 2, 8, 9, 40}) {
+    for (const double bad : {nothing, infinity}) {
+      for (const bool is_in_bound : {false, true}) {
+        if (bad == infinity && !is_in_bound) continue;  // such a row may be met
+        for (const int bad_row : {0, count - 1}) {
+          Problem problem = towards(six(0, 0, -1));
+          for (int k = 0; k < count; ++k) problem.add_row(six(0.01 * k, 0, 1, 0.1, 0.02 * k), 0.5 - k);
+          if (is_in_bound) problem.bounds[std::size_t(bad_row)] = bad;
+          else problem.rows[std::size_t(bad_row)][3] = bad;
+          Solution solution;
+          for (const bool is_told : {false, true}) {
+            feeler::WarmStart start;
+            if (is_told) start.rows.push_back(0);
+            BOOST_TEST_INFO(count << " rows, " << bad << (is_in_bound ? " as bound" : "") << " of row " << bad_row);
+            BOOST_TEST((solver.solve(problem, start, solution) != QpStatus::optimal));
+            BOOST_TEST(solution.step.allFinite());
+            for (const auto& active : solution.active) BOOST_TEST((std::isfinite(active.multiplier) && active.multiplier >= 0));
+          }
+        }
+      }
+    }
+  }
+}
+
 BOOST_AUTO_TEST_CASE(a_step_called_optimal_meets_every_row_in_float_too) {
   constexpr unsigned seed = 6;
   BOOST_TEST_MESSAGE("seed " << seed);

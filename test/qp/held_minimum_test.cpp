@@ -11,7 +11,7 @@
 #include <Eigen/Dense>
 
 #include "feeler/qp/dual_active_set.hpp"
-#include "support/qp_laws.hpp"
+#include "support/general_problem.hpp"
 #include "support/random_geometry.hpp"
 
 BOOST_AUTO_TEST_SUITE(held_minimum)
@@ -21,20 +21,9 @@ namespace {
 using Problem = feeler::QpProblem<double>;
 using Six = feeler::detail::Six<double>;
 using feeler::WarmStart;
+using feeler_test::general_problem;
 using feeler_test::random_six;
 using Vector6 = feeler::Vector6<double>;
-
-/// Rows in general position, with a Hessian that is diagonal or not.
-Problem random_problem(std::mt19937& bits, int rows, bool is_diagonal) {
-  Problem problem;
-  feeler::Matrix6<double> root;
-  for (int j = 0; j < 6; ++j) root.col(j) = random_six(bits);
-  problem.hessian = root * root.transpose() + 0.1 * feeler::Matrix6<double>::Identity();
-  if (is_diagonal) problem.hessian = feeler::Matrix6<double>(problem.hessian.diagonal().asDiagonal());
-  problem.gradient = random_six(bits);
-  for (int k = 0; k < rows; ++k) problem.add_row(random_six(bits), feeler_test::unit(bits));
-  return problem;
-}
 
 WarmStart first_rows(int count) {
   WarmStart start;
@@ -44,7 +33,7 @@ WarmStart first_rows(int count) {
 
 /// A minimum, and whether it was found.
 struct Attempt {
-  feeler::detail::HeldMinimum<double> minimum;
+  feeler::detail::HeldMinimum<double> minimum, placed;  // the second by the multipliers of the first
   bool is_found = false;
 
   Attempt(const Problem& problem, const WarmStart& start) {
@@ -53,6 +42,8 @@ struct Attempt {
     Six gradient;
     std::copy_n(problem.gradient.data(), 6, gradient.begin());
     is_found = minimum.find(problem, problem.bounds.data(), start, hessian, gradient);
+    if (!is_found) return;
+    placed.place(problem, problem.bounds.data(), start, minimum.multipliers(), hessian, gradient);
   }
 };
 
@@ -65,7 +56,7 @@ BOOST_AUTO_TEST_CASE(the_minimum_and_its_multipliers_solve_the_whole_system_of_e
   int found = 0, refused = 0;
   for (int i = 0; i < 4000; ++i) {
     const int rows = 1 + i % 6;
-    const Problem problem = random_problem(bits, rows, i % 4 == 0);
+    const Problem problem = general_problem(bits, rows, i % 4 == 0);
     // [H −Nᵀ; N 0] [x; λ] = [−g; b], by an LU factor with full pivoting.
     Eigen::MatrixXd system = Eigen::MatrixXd::Zero(6 + rows, 6 + rows);
     Eigen::VectorXd right(6 + rows);
@@ -88,10 +79,16 @@ BOOST_AUTO_TEST_CASE(the_minimum_and_its_multipliers_solve_the_whole_system_of_e
     ++found;
     BOOST_TEST(least > -1e-9 * expected.norm());
     const double tolerance = 1e-9 * (1 + expected.norm());
-    for (int j = 0; j < 6; ++j) BOOST_TEST(std::abs(attempt.minimum.x()[std::size_t(j)] - expected[j]) < tolerance);
+    for (std::size_t j = 0; j < 6; ++j) {
+      BOOST_TEST(std::abs(attempt.minimum.x()[j] - expected[Eigen::Index(j)]) < tolerance);
+      BOOST_TEST(std::abs(attempt.placed.x()[j] - expected[Eigen::Index(j)]) < tolerance);
+    }
     for (int k = 0; k < rows; ++k) {
       BOOST_TEST(std::abs(attempt.minimum.multipliers()[std::size_t(k)] - expected[6 + k]) < tolerance);
       for (int j = 0; j < 6; ++j) BOOST_TEST(attempt.minimum.normal(k)[std::size_t(j)] == problem.rows[std::size_t(k)][j]);
+      BOOST_TEST(attempt.placed.multipliers()[std::size_t(k)] == attempt.minimum.multipliers()[std::size_t(k)]);
+      BOOST_TEST((attempt.placed.normal(k) == attempt.minimum.normal(k)));
+      BOOST_TEST(std::abs(attempt.placed.lacking()[std::size_t(k)]) < tolerance);
     }
   }
   BOOST_TEST(found > 500);
@@ -105,7 +102,7 @@ BOOST_AUTO_TEST_CASE(rows_are_met_to_nine_digits_also_where_large_forces_cancel)
   int found = 0;
   for (int i = 0; i < 2000; ++i) {
     const int rows = 1 + i % 6;
-    Problem problem = random_problem(bits, rows, i % 4 == 0);
+    Problem problem = general_problem(bits, rows, i % 4 == 0);
     // As large as the forces, or smaller by up to eighteen digits: then rounding of the forces is larger than x.
     const double size = std::pow(10.0, -(i % 19));
     problem.gradient.setZero();

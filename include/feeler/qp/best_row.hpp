@@ -4,12 +4,33 @@
 #include <array>
 #include <bit>
 #include <cstddef>
+#include <limits>
 #include <type_traits>
 
 #include "feeler/core/lanes.hpp"
 #include "feeler/core/scalar.hpp"
 
 namespace feeler::detail {
+
+/// Of a row's weight with nothing active, as which it is weighed where active rows leave less of it free to move.
+constexpr double least_share = 1e-3;
+
+/// Keeps the score of a row of zeros finite.
+template <RealScalar Scalar>
+Scalar smallest_weight() noexcept {
+  return std::numeric_limits<Scalar>::min() / std::numeric_limits<Scalar>::epsilon();
+}
+
+/// A group of violations of which what lies behind the last row is none, however it is followed.
+/// @param count  of rows, from the first of the group on
+template <class Scalar, int lanes>
+Lanes<Scalar, lanes> only_rows(const Lanes<Scalar, lanes>& violation, int count) noexcept {
+  if constexpr (lanes > 1) {
+    if (count < lanes)
+      return first_lanes<Scalar, lanes>(count) ? violation : spread<Lanes<Scalar, lanes>>(-std::numeric_limits<Scalar>::infinity());
+  }
+  return violation;
+}
 
 /// Meets the rows in order, `lanes` at a time, and keeps the one with the largest violation²/weight among
 /// those above a threshold.

@@ -9,6 +9,8 @@
 
 #include "feeler/core/lanes.hpp"
 #include "feeler/qp/active_operators.hpp"
+#include "feeler/qp/best_row.hpp"
+#include "feeler/qp/dual_tableau.hpp"
 #include "feeler/qp/held_minimum.hpp"
 #include "feeler/qp/inverse_hessian.hpp"
 #include "feeler/qp/problem.hpp"
@@ -29,7 +31,8 @@ namespace feeler {
 /// answer is optimal once a fresh look at all rows and at the gradient agrees, and infeasible once rows in
 /// conflict cancel; where rounding prevents both, everything is done again with operators from an orthogonal
 /// factor. Where the rows to start from are the active ones, or the only row there is, the same look confirms the
-/// minimum on them (`detail::HeldMinimum`), and no operator is made.
+/// minimum on them (`detail::HeldMinimum`), and no operator is made; nor where there are few rows, of which a table
+/// tells which are active (`detail::DualTableau`), unless one all but depends on others.
 ///
 /// Rows are met to `tolerance` [m]. Rows that make an angle below about 1e-8 rad with the span of the active
 /// ones count as dependent. The same input gives the same bits, with every number of lanes and,
@@ -65,12 +68,22 @@ class DualActiveSet {
     accepted_ = tolerance;
     // What rounding leaves of a row that is projected twice, or more.
     dependent_angle_ = std::max(Scalar(1e-8), Scalar(16 * std::numeric_limits<Scalar>::epsilon()));
-    WarmStart all;  // a row alone is most likely active
-    if (problem.row_count == 1) all.rows.push_back(0);
-    const bool is_told = !start.rows.empty();
-    if ((is_told || problem.row_count < 2) && is_right(problem, is_told ? start : all, solution)) return QpStatus::optimal;
+    WarmStart alone;  // a row alone is most likely active
+    if (problem.row_count == 1) alone.rows.push_back(0);
+    const WarmStart* known = start.rows.empty() ? &alone : &start;
+    if ((!known->rows.empty() || problem.row_count == 0) && guess_.find(problem, bounds_, *known, inverse_, gradient_) &&
+        is_right(problem, *known, 1, solution))
+      return QpStatus::optimal;
+    if (problem.row_count <= Tableau::row_capacity) {
+      const bool is_found = tableau_.find(problem, bounds_, inverse_, gradient_, accepted_);
+      known = &tableau_.active();
+      if (is_found) {
+        guess_.place(problem, bounds_, *known, tableau_.multipliers(), inverse_, gradient_);
+        if (is_right(problem, *known, 1 + tableau_.steps(), solution)) return QpStatus::optimal;
+      }
+    }
     inverse_.invert();
-    Outcome outcome = run(problem, start, solution);
+    Outcome outcome = run(problem, *known, solution);
     if (outcome == Outcome::in_doubt) outcome = run_with_care(problem, solution);
     if (!is_finite()) {  // nor was the input: no step is the only one that is sure to be finite
       solution.conflict.clear();
@@ -86,24 +99,24 @@ class DualActiveSet {
  private:
   using Six = detail::Six<Scalar>;
   using Operators = detail::ActiveOperators<Scalar, lanes>;
+  using Tableau = detail::DualTableau<Scalar, lanes>;
 
   enum class Outcome { optimal, infeasible, in_doubt };
   enum class Entry { done, refused, infeasible, in_doubt };
 
   static std::size_t index(int i) noexcept { return std::size_t(i); }
 
-  /// Whether the rows to start from are the active ones: then that is all there is to do.
-  bool is_right(const Problem& problem, const WarmStart& start, Solution& solution) noexcept {
-    if (!guess_.find(problem, bounds_, start, inverse_, gradient_)) return false;
+  /// Whether the minimum on known rows is that of the problem: then that is all there is to do.
+  [[gnu::always_inline]] inline bool is_right(const Problem& problem, const WarmStart& known, int iterations, Solution& solution) noexcept {
     using std::isfinite;
-    x_ = guess_.x();
-    if (!isfinite(detail::size_of(x_)) || scan_.is_violated(problem, bounds_, x_, accepted_)) return false;
-    const int count = start.rows.size();
+    const Six& x = guess_.x();
+    if (!isfinite(detail::size_of(x)) || scan_.is_violated(problem, bounds_, x, accepted_)) return false;
+    const int count = known.rows.size();
     const auto normal_of = [this](int i) -> const Six& { return guess_.normal(i); };
-    if (Six residual; is_off(count, normal_of, guess_.multipliers(), guess_.lacking(), residual)) return false;
-    std::copy_n(x_.begin(), 6, solution.step.data());
-    for (int i = 0; i < count; ++i) solution.active.push_back({start.rows[i], guess_.multipliers()[index(i)]});
-    solution.iterations = 1;
+    if (Six residual; is_off(x, count, normal_of, guess_.multipliers(), guess_.lacking(), residual)) return false;
+    std::copy_n(x.begin(), 6, solution.step.data());
+    for (int i = 0; i < count; ++i) solution.active.push_back({known.rows[i], guess_.multipliers()[index(i)]});
+    solution.iterations = iterations;
     return true;
   }
 
@@ -160,8 +173,9 @@ class DualActiveSet {
       }
       ++solution.iterations;
       const Scalar rounding = is_strict ? detail::rounding_at(x_) : Scalar(0);
-      if (is_strict ? scan_.is_violated(problem, bounds_, x_, accepted_, rounding)
-                    : scan_.is_violated(problem, bounds_, x_, accepted_)) {
+      const bool is_violated = is_strict ? scan_.is_violated(problem, bounds_, x_, accepted_, rounding)
+                                         : scan_.is_violated(problem, bounds_, x_, accepted_);
+      if (is_violated) {
         scan_.measure(problem, bounds_, x_, rounding);
         mark_active();
         if (!is_weighed) scan_.weigh(problem, inverse_, operators_.projector());
@@ -169,7 +183,10 @@ class DualActiveSet {
         entering = scan_.select(problem, accepted_);
         if (entering < 0) entering = most_violated(problem, rounding);
       }
-      if (entering < 0 && (operators_.used() == 0 || !refine())) return Outcome::optimal;
+      if (entering < 0 && (operators_.used() == 0 || !refine())) {
+        const bool are_numbers = !is_violated || !scan_.is_violated(problem, bounds_, x_, std::numeric_limits<Scalar>::infinity());
+        return are_numbers ? Outcome::optimal : Outcome::in_doubt;
+      }
     }
     return Outcome::in_doubt;
   }
@@ -235,7 +252,7 @@ class DualActiveSet {
     const Scalar whole = whole_weight(a);
     operators_.apply(a);
     const Scalar slope = slope_along(a);
-    if (!(slope > Scalar(1e-3) * whole)) return;
+    if (!(slope > Scalar(detail::least_share) * whole)) return;
     const Scalar step = (bounds_[row] - detail::dot(a, x_)) / slope;
     move(step);
     activate(row, a, step, slope);
@@ -262,8 +279,8 @@ class DualActiveSet {
   /// @param lacking   by how much x falls short of each of them
   /// @param residual  of the gradient, to be found
   template <class NormalOf, class Multipliers>
-  bool is_off(int count, const NormalOf& normal_of, const Multipliers& multipliers, const Six& lacking, Six& residual) const noexcept {
-    const Six bent = inverse_.hessian_times(x_);
+  bool is_off(const Six& x, int count, const NormalOf& normal_of, const Multipliers& multipliers, const Six& lacking, Six& residual) const noexcept {
+    const Six bent = inverse_.hessian_times(x);
     Scalar most_lacking(0);
 #pragma GCC unroll 6
     for (std::size_t j = 0; j < 6; ++j) residual[j] = bent[j] + gradient_[j];
@@ -278,7 +295,7 @@ class DualActiveSet {
     if (most_lacking <= accepted_ && off <= rounding_of_sum * size) return false;
 
     // What the sizes of the rows excuse is seldom needed.
-    const Scalar rounding = detail::rounding_at(x_);
+    const Scalar rounding = detail::rounding_at(x);
     for (int i = 0; i < count; ++i) {
       const Scalar row_size = detail::size_of(normal_of(i));
       size += detail::product(multipliers[index(i)], row_size);
@@ -292,7 +309,7 @@ class DualActiveSet {
     const auto normal_of = [this](int i) -> const Six& { return operators_.normal(i); };
     Six residual, lacking{};
     for (int i = 0; i < operators_.used(); ++i) lacking[index(i)] = bounds_[slots_[index(i)]] - detail::dot(normal_of(i), x_);
-    if (!is_off(operators_.used(), normal_of, multipliers_, lacking, residual)) return false;
+    if (!is_off(x_, operators_.used(), normal_of, multipliers_, lacking, residual)) return false;
 
     const Six across = operators_.step_of(lacking);
     const Six pulled = inverse_.hessian_times(across);
@@ -321,7 +338,7 @@ class DualActiveSet {
     while (++solution.iterations <= limit) {
       operators_.apply(a);
       Scalar slope = slope_along(a);
-      if (!(slope >= Scalar(1e-3) * whole)) {
+      if (!(slope >= Scalar(detail::least_share) * whole)) {
         whole = whole_weight(a);
         operators_.project_again();
         slope = slope_along(a);
@@ -446,6 +463,7 @@ class DualActiveSet {
 
   detail::InverseHessian<Scalar> inverse_;
   detail::HeldMinimum<Scalar> guess_;
+  Tableau tableau_;
   Operators operators_;
   detail::RowScan<Scalar, lanes> scan_;
   const Scalar* bounds_ = nullptr;     // of the rows, and the violation of them that is accepted

@@ -38,9 +38,7 @@ class HeldMinimum {
     std::size_t count = 0;
     for (const int row : start.rows) {
       if (row < 0 || row >= problem.row_count) return false;
-      Six<Scalar>& a = normals_[count];
-#pragma GCC unroll 6
-      for (int j = 0; j < 6; ++j) a[std::size_t(j)] = problem.rows.column(j)[row];
+      const Six<Scalar> a = take_normal(problem, row, count);
       y[count] = hessian.solve_lower(a);
       scaled[count] = multiply(d_inverse, y[count]);
       const Scalar whole = dot(scaled[count], y[count]);
@@ -63,18 +61,27 @@ class HeldMinimum {
     }
     // Forces that cancel do so before they are scaled.
     Six<Scalar> force = home;
-    for (std::size_t i = 0; i < count; ++i) {
-#pragma GCC unroll 6
-      for (std::size_t j = 0; j < 6; ++j) force[j] -= product(multipliers_[i], y[i][j]);
-    }
-#pragma GCC unroll 6
-    for (std::size_t j = 0; j < 6; ++j) force[j] *= -d_inverse[j];
-    x_ = hessian.solve_upper(force);
+    for (std::size_t i = 0; i < count; ++i) subtract(y[i], multipliers_[i], force);
+    follow(force, hessian);
     if (look(bounds, start) > rough() * largest_of(x_)) {
       meet(hessian, scaled, l, pivot_inverse, count);
       look(bounds, start);
     }
     return true;
+  }
+
+  /// The same where the multipliers are known.
+  /// @param rows  of the problem, that exist
+  void place(const QpProblem<Scalar>& problem, const Scalar* bounds, const WarmStart& rows, const Six<Scalar>& multipliers,
+             const InverseHessian<Scalar>& hessian, const Six<Scalar>& gradient) noexcept {
+    Six<Scalar> force = hessian.solve_lower(gradient);
+    for (int k = 0; k < rows.rows.size(); ++k) {
+      const auto i = std::size_t(k);
+      multipliers_[i] = multipliers[i];
+      subtract(hessian.solve_lower(take_normal(problem, rows.rows[k], i)), multipliers[i], force);
+    }
+    follow(force, hessian);
+    look(bounds, rows);
   }
 
   const Six<Scalar>& x() const noexcept { return x_; }
@@ -85,6 +92,25 @@ class HeldMinimum {
   const Six<Scalar>& lacking() const noexcept { return lacking_; }
 
  private:
+  Six<Scalar> take_normal(const QpProblem<Scalar>& problem, int row, std::size_t i) noexcept {
+    Six<Scalar> a;
+#pragma GCC unroll 6
+    for (int j = 0; j < 6; ++j) a[std::size_t(j)] = problem.rows.column(j)[row];
+    normals_[i] = a;
+    return a;
+  }
+
+  static void subtract(const Six<Scalar>& y, const Scalar& multiplier, Six<Scalar>& force) noexcept {
+#pragma GCC unroll 6
+    for (std::size_t j = 0; j < 6; ++j) force[j] -= product(multiplier, y[j]);
+  }
+  /// x is where a force L⁻¹(g − Aᵀλ) leads.
+  void follow(Six<Scalar> force, const InverseHessian<Scalar>& hessian) noexcept {
+#pragma GCC unroll 6
+    for (std::size_t j = 0; j < 6; ++j) force[j] *= -hessian.inverse_pivots()[j];
+    x_ = hessian.solve_upper(force);
+  }
+
   /// By how much x falls short of each row; returns the largest distance.
   Scalar look(const Scalar* bounds, const WarmStart& start) noexcept {
     Scalar most(0);

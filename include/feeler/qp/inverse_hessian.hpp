@@ -37,12 +37,13 @@ class InverseHessian {
   /// D⁻¹
   const Six<Scalar>& inverse_pivots() const noexcept { return d_inverse_; }
   /// L⁻¹·v
-  Six<Scalar> solve_lower(Six<Scalar> v) const noexcept {
+  template <class Group>
+  std::array<Group, 6> solve_lower(std::array<Group, 6> v) const noexcept {
     if (is_diagonal_) return v;
 #pragma GCC unroll 6
     for (std::size_t i = 1; i < 6; ++i) {
 #pragma GCC unroll 6
-      for (std::size_t k = 0; k < i; ++k) v[i] -= product(lower_[i][k], v[k]);
+      for (std::size_t k = 0; k < i; ++k) v[i] -= product(spread<Group>(lower_[i][k]), v[k]);
     }
     return v;
   }

@@ -53,7 +53,7 @@ class RowScan {
     }
   }
 
-  /// Whether a row is violated at x by more than `tolerance`; nothing of it is kept.
+  /// Whether a row is violated at x by more than `tolerance`, or by no number; nothing of it is kept.
   static bool is_violated(const Problem& problem, const Scalar* bounds, const Six<Scalar>& x,
                           Scalar tolerance) noexcept {
     return is_above(problem, tolerance, Violation(bounds, x));
@@ -137,7 +137,6 @@ class RowScan {
   // A little longer than a power of two, as the columns of a `RowList`.
   using Values = std::array<Coarse, std::size_t(Problem::row_capacity + 16)>;
   struct Nothing {};
-  static constexpr double least_share = 1e-3;
 
   /// aᵀQa with Q diagonal.
   class DiagonalForm {
@@ -210,10 +209,6 @@ class RowScan {
   };
 
   static std::size_t index(int i) noexcept { return std::size_t(i); }
-  /// Keeps the score of a row of zeros finite.
-  static Coarse smallest() noexcept {
-    return std::numeric_limits<Coarse>::min() / std::numeric_limits<Coarse>::epsilon();
-  }
   template <class Spread, class V>
   static std::array<Spread, 6> spread_all(const V& v) noexcept {
     using Number = std::conditional_t<std::is_same_v<Spread, Group>, Scalar, Coarse>;
@@ -261,17 +256,6 @@ class RowScan {
     }
     return a;
   }
-  /// A group of violations of which what lies behind the last row is none, however it is followed.
-  /// @param count  of rows, from the first of the group on
-  template <class Number, int size>
-  static Lanes<Number, size> only_rows(const Lanes<Number, size>& violation, int count) noexcept {
-    if constexpr (size > 1) {
-      if (count < size)
-        return first_lanes<Number, size>(count) ? violation
-                                                : spread<Lanes<Number, size>>(-std::numeric_limits<Number>::infinity());
-    }
-    return violation;
-  }
   template <class Value>
   static CoarseGroup coarse_violation(const Problem& problem, int k, const Value& value_of) noexcept {
     const CoarseGroup violation = coarse_group(k, [&](int at) { return value_of(rows(problem, at), at); });
@@ -282,7 +266,7 @@ class RowScan {
   int start(const Problem& problem, const Scalar* bounds, const Form& form, const Six<Scalar>& x,
             Scalar tolerance) noexcept {
     const Violation violation_of(bounds, x);
-    const CoarseGroup share = spread<CoarseGroup>(Coarse(least_share)), least = spread<CoarseGroup>(smallest());
+    const CoarseGroup share = spread<CoarseGroup>(Coarse(least_share)), least = spread<CoarseGroup>(smallest_weight<Coarse>());
     const CoarseGroup threshold = spread<CoarseGroup>(Coarse(tolerance));
     Best best;
     for (int k = 0; k < problem.row_count; k += coarse_lanes) {
@@ -298,7 +282,7 @@ class RowScan {
 
   template <class Form>
   void weigh(const Problem& problem, const Form& whole, const FullForm& free) noexcept {
-    const CoarseGroup share = spread<CoarseGroup>(Coarse(least_share)), least = spread<CoarseGroup>(smallest());
+    const CoarseGroup share = spread<CoarseGroup>(Coarse(least_share)), least = spread<CoarseGroup>(smallest_weight<Coarse>());
     for (int k = 0; k < problem.row_count; k += coarse_lanes) {
       const SixCoarse a = round_rows(problem, k);
       store(&weight_[index(k)], free(a));
@@ -309,19 +293,19 @@ class RowScan {
   template <class Value>
   static bool is_above(const Problem& problem, Scalar tolerance, const Value& value_of) noexcept {
     const Group threshold = spread<Group>(tolerance);
-    auto is_above = Group{} > Group{};
+    auto is_met = Group{} <= Group{};
     for (int k = 0; k < problem.row_count; k += lanes)
-      is_above |= only_rows<Scalar, lanes>(value_of(rows(problem, k), k), problem.row_count - k) > threshold;
-    return any(is_above);
+      is_met &= only_rows<Scalar, lanes>(value_of(rows(problem, k), k), problem.row_count - k) <= threshold;
+    return !all(is_met);
   }
   template <class Comparison>
-  static bool any(const Comparison& comparison) noexcept {
+  static bool all(const Comparison& comparison) noexcept {
     if constexpr (lanes == 1) {
       return comparison;
     } else {
-      LaneBits<Scalar> any = 0;
-      for (const LaneBits<Scalar> bits : in_lanes<LaneBits<Scalar>>(comparison)) any |= bits;
-      return any != 0;
+      LaneBits<Scalar> all = -1;
+      for (const LaneBits<Scalar> bits : in_lanes<LaneBits<Scalar>>(comparison)) all &= bits;
+      return all != 0;
     }
   }
 

@@ -1,0 +1,23 @@
+// Quadratic programs of rows in general position.
+#pragma once
+
+#include <random>
+
+#include "feeler/qp/problem.hpp"
+#include "support/random_geometry.hpp"
+
+namespace feeler_test {
+
+/// With a Hessian that is diagonal or not.
+inline feeler::QpProblem<double> general_problem(std::mt19937& bits, int rows, bool is_diagonal) {
+  feeler::QpProblem<double> problem;
+  feeler::Matrix6<double> root;
+  for (int j = 0; j < 6; ++j) root.col(j) = random_six(bits);
+  problem.hessian = root * root.transpose() + 0.1 * feeler::Matrix6<double>::Identity();
+  if (is_diagonal) problem.hessian = feeler::Matrix6<double>(problem.hessian.diagonal().asDiagonal());
+  problem.gradient = random_six(bits);
+  for (int k = 0; k < rows; ++k) problem.add_row(random_six(bits), unit(bits));
+  return problem;
+}
+
+}  // namespace feeler_test
