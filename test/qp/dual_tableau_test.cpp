@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <cmath>
 #include <cstddef>
 #include <optional>
 #include <random>
@@ -14,6 +15,7 @@
 #include <Eigen/Dense>
 
 #include "feeler/qp/dual_active_set.hpp"
+#include "feeler/qp/held_minimum.hpp"
 #include "support/general_problem.hpp"
 
 BOOST_AUTO_TEST_SUITE(dual_tableau)
@@ -33,11 +35,13 @@ bool find(feeler::detail::DualTableau<double, lanes>& tableau, const Problem& pr
   return tableau.find(problem, problem.bounds.data(), hessian, gradient, 1e-12);
 }
 
-/// The rows that are active at the minimum, with their multipliers, of all subsets of the rows: that which meets the conditions of optimality.
+/// Of all subsets of the rows, held with equality, one at which the conditions of optimality are met.
 struct Optimum {
   std::vector<int> rows;
   Eigen::VectorXd multipliers;
+  double cost = 0;
 };
+double cost(const Problem& problem, const Vector6& x) { return x.dot(problem.hessian * x) / 2 + problem.gradient.dot(x); }
 std::optional<Optimum> best_of_all_subsets(const Problem& problem) {
   const Eigen::LLT<feeler::Matrix6<double>> hessian(problem.hessian);
   for (unsigned subset = 0; subset < 1U << unsigned(problem.row_count); ++subset) {
@@ -53,14 +57,19 @@ std::optional<Optimum> best_of_all_subsets(const Problem& problem) {
       a.row(i) = Vector6(problem.rows[std::size_t(optimum.rows[std::size_t(i)])]).transpose();
       b[i] = problem.bounds[std::size_t(optimum.rows[std::size_t(i)])];
     }
-    optimum.multipliers = (a * hessian.solve(Eigen::MatrixXd(a.transpose()))).fullPivLu().solve(b + a * hessian.solve(problem.gradient));
-    if (count > 0 && optimum.multipliers.minCoeff() < 0) continue;
-    const Vector6 x = hessian.solve(a.transpose() * optimum.multipliers - problem.gradient);
+    Vector6 x = -hessian.solve(problem.gradient);
+    if (count > 0) {
+      const Eigen::MatrixXd pushed = hessian.solve(Eigen::MatrixXd(a.transpose()));
+      optimum.multipliers = (a * pushed).fullPivLu().solve(b - a * x);
+      if (optimum.multipliers.minCoeff() < 0) continue;
+      x += pushed * optimum.multipliers;
+    }
     bool is_met = true;
     for (int k = 0; k < problem.row_count; ++k) {
       const double lacking = problem.bounds[std::size_t(k)] - problem.rows[std::size_t(k)].dot(x);
       is_met = is_met && lacking < 1e-9 * (1 + x.norm());
     }
+    optimum.cost = cost(problem, x);
     if (is_met) return optimum;
   }
   return std::nullopt;
@@ -124,7 +133,7 @@ BOOST_AUTO_TEST_CASE(every_number_of_lanes_finds_the_same_bits) {
 BOOST_AUTO_TEST_CASE(it_gives_up_where_a_row_all_but_depends_on_active_ones) {
   Problem problem;  // min ½|x|², from 0
   problem.add_row(Vector6::Unit(0), 1.5);
-  problem.add_row(-Vector6::Unit(0) + 1e-3 * Vector6::Unit(1), -1.4);
+  problem.add_row(-Vector6::Unit(0) + 1e-5 * Vector6::Unit(1), -1.4);
   feeler::detail::DualTableau<double, 2> tableau;
   BOOST_TEST(!find(tableau, problem));
   BOOST_TEST_REQUIRE(tableau.active().rows.size() == 1);  // that can be held
@@ -137,6 +146,38 @@ BOOST_AUTO_TEST_CASE(it_gives_up_where_a_row_all_but_depends_on_active_ones) {
   BOOST_TEST(tableau.multipliers()[0] == 1.5);
 }
 
+BOOST_AUTO_TEST_CASE(rows_that_nearly_depend_are_met_to_rounding_once_refined) {
+  constexpr unsigned seed = 74;
+  BOOST_TEST_MESSAGE("seed " << seed);
+  std::mt19937 bits(seed);
+  feeler::detail::DualTableau<double, 2> tableau;
+  feeler::detail::HeldMinimum<double> minimum;
+  int found = 0;
+  double before = 0;
+  for (int i = 0; i < 2000; ++i) {
+    Problem problem = feeler_test::general_problem(bits, 1 + i % 5, i % 4 == 0);
+    const Vector6 first = problem.rows[0];
+    problem.bounds[0] = 1.0;
+    problem.add_row(1e-4 * feeler_test::random_six(bits) - first, -1.0 + 1e-5 * feeler_test::unit(bits));  // as a flat wedge
+    if (!find(tableau, problem) || tableau.active().rows.size() < 2) continue;
+    ++found;
+    feeler::detail::InverseHessian<double> hessian;
+    BOOST_TEST_REQUIRE(hessian.factor(problem.hessian));
+    Six gradient;
+    std::copy_n(problem.gradient.data(), 6, gradient.begin());
+    before = std::max(before, minimum.place(problem, problem.bounds.data(), tableau.active(), tableau.multipliers(), hessian, gradient));
+    for (int n = 0; n < 2; ++n) minimum.shift(problem.bounds.data(), tableau.active(), tableau.change_for(minimum.lacking()), hessian);
+    const Eigen::Map<const Vector6> x(minimum.x().data());
+    for (int k = 0; k < tableau.active().rows.size(); ++k) {
+      const auto row = std::size_t(tableau.active().rows[k]);
+      BOOST_TEST(std::abs(problem.bounds[row] - problem.rows[row].dot(x)) < 1e-13 * (1 + x.norm()));
+    }
+  }
+  BOOST_TEST_MESSAGE(found << " problems, up to " << before << " beside a row before");
+  BOOST_TEST(found > 300);
+  BOOST_TEST(before > 1e-11);  // there is something to refine
+}
+
 BOOST_AUTO_TEST_CASE(what_it_gives_up_the_solver_solves_and_goes_on_from_its_rows) {
   constexpr unsigned seed = 73;
   BOOST_TEST_MESSAGE("seed " << seed);
@@ -147,17 +188,17 @@ BOOST_AUTO_TEST_CASE(what_it_gives_up_the_solver_solves_and_goes_on_from_its_row
   for (int i = 0; i < 2000; ++i) {
     Problem problem = feeler_test::general_problem(bits, 3 + i % 5, i % 4 == 0);
     const Vector6 first = problem.rows[0];  // and one that all but repeats it
-    problem.add_row(first + 1e-5 * feeler_test::random_six(bits), problem.bounds[0] + 1e-5 * feeler_test::unit(bits));
+    problem.add_row(first + 1e-6 * feeler_test::random_six(bits), problem.bounds[0] + 1e-6 * feeler_test::unit(bits));
     if (find(tableau, problem)) continue;
     const auto optimum = best_of_all_subsets(problem);
     if (!optimum) continue;
     ++given_up;
     feeler::QpSolution<double> solution;
     BOOST_TEST((solver.solve(problem, solution) == feeler::QpStatus::optimal));
-    std::vector<int> rows;
-    for (const auto& active : solution.active) rows.push_back(active.row);
-    std::sort(rows.begin(), rows.end());
-    BOOST_TEST(rows == optimum->rows, boost::test_tools::per_element());
+    // Of rows that are met to a nanometre, either of two that all but repeat each other may be the active one.
+    BOOST_TEST(std::abs(cost(problem, solution.step) - optimum->cost) < 1e-6 * (1 + std::abs(optimum->cost)));
+    for (int k = 0; k < problem.row_count; ++k)
+      BOOST_TEST(problem.bounds[std::size_t(k)] - problem.rows[std::size_t(k)].dot(solution.step) < 1e-12);
   }
   BOOST_TEST(given_up > 100);
 }

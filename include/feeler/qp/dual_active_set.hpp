@@ -75,12 +75,8 @@ class DualActiveSet {
         is_right(problem, *known, 1, solution))
       return QpStatus::optimal;
     if (problem.row_count <= Tableau::row_capacity) {
-      const bool is_found = tableau_.find(problem, bounds_, inverse_, gradient_, accepted_);
+      if (is_solved_by_table(problem, solution)) return QpStatus::optimal;
       known = &tableau_.active();
-      if (is_found) {
-        guess_.place(problem, bounds_, *known, tableau_.multipliers(), inverse_, gradient_);
-        if (is_right(problem, *known, 1 + tableau_.steps(), solution)) return QpStatus::optimal;
-      }
     }
     inverse_.invert();
     Outcome outcome = run(problem, *known, solution);
@@ -118,6 +114,18 @@ class DualActiveSet {
     for (int i = 0; i < count; ++i) solution.active.push_back({known.rows[i], guess_.multipliers()[index(i)]});
     solution.iterations = iterations;
     return true;
+  }
+
+  /// Whether a table finds the active rows of a problem of few rows, and their minimum is its own.
+  [[gnu::noinline]]
+  bool is_solved_by_table(const Problem& problem, Solution& solution) noexcept {
+    constexpr int most_refinements = 2;
+    if (!tableau_.find(problem, bounds_, inverse_, gradient_, accepted_)) return false;
+    const WarmStart& active = tableau_.active();
+    Scalar lacking = guess_.place(problem, bounds_, active, tableau_.multipliers(), inverse_, gradient_);
+    for (int i = 0; i < most_refinements && lacking > accepted_ / 2; ++i)
+      lacking = guess_.shift(bounds_, active, tableau_.change_for(guess_.lacking()), inverse_);
+    return is_right(problem, active, 1 + tableau_.steps(), solution);
   }
 
   /// Starts again with operators from an orthogonal factor, and uses up most of the tolerance, so that rows

@@ -24,8 +24,8 @@ namespace feeler::detail {
 /// table has to be made and followed, which pays where rows are few. Source: J. H. Goodnight, "A tutorial on the SWEEP operator", The American
 /// Statistician 33 (1979); forces of active rows are kept in a unit in which the row's own column stays as it is.
 ///
-/// Rows are chosen as by `RowScan`, and every lane computed alike, however many there are. Nothing is projected twice: where a row all but depends
-/// on active ones it gives up.
+/// Rows are chosen as by `RowScan`, and every lane computed alike, however many there are. Where a row all but depends on active ones, by an angle
+/// below 3e-5 rad, the table has too few digits left, and it gives up.
 template <RealScalar Scalar, int lanes>
 class DualTableau {
  public:
@@ -41,14 +41,15 @@ class DualTableau {
     constexpr int most_steps = 3 * row_capacity;
     count_ = problem.row_count;
     active_.rows.clear();
+    is_behind_ = false;
     int entering = start(problem, bounds, hessian, gradient, tolerance);
     if (entering >= 0) fill();
     Scalar multiplier(0);  // of the row that enters
     for (steps_ = 0; entering >= 0; ++steps_) {
       const std::size_t row = index(entering);
-      const Scalar slope = weight_[row];
-      if (steps_ == most_steps || active_.rows.full() || !(slope > least_weight_[row])) return false;
       const Values& column = table_[row];
+      const Scalar slope = weight_[row];  // known before the row's own column
+      if (steps_ == most_steps || active_.rows.full() || !(slope > independent() * Scalar(1 / least_share) * least_weight_[row])) return false;
       Scalar step = violation_[row] / slope;
       const int leaving = first_to_leave(column, step);
       multiplier += step;
@@ -57,9 +58,10 @@ class DualTableau {
         const int next = advance(column, step, slope, tolerance);
         violation_[row] = -std::numeric_limits<Scalar>::infinity();
         multipliers_[index(active_.rows.size())] = multiplier;
-        units_[index(active_.rows.size())] = Scalar(1) / slope;
+        units_[index(active_.rows.size())] = Scalar(1) / column[row];
         active_.rows.push_back(entering);
-        if (next >= 0) sweep(entering, slope, Scalar(1));
+        is_behind_ = next < 0;
+        if (!is_behind_) sweep(entering, Scalar(1));
         entering = next;
         multiplier = Scalar(0);
       } else {
@@ -69,8 +71,21 @@ class DualTableau {
     return true;
   }
 
+  /// After rows were found: the change of their multipliers that moves the tool off each of them by a distance.
+  Six<Scalar> change_for(const Six<Scalar>& distances) noexcept {
+    if (is_behind_) sweep(active_.rows.back(), Scalar(1));
+    is_behind_ = false;
+    Six<Scalar> change{};
+    for (int k = 0; k < active_.rows.size(); ++k) {  // the table of the active rows is the inverse, negative
+      const Values& column = table_[index(active_.rows[k])];
+      const Scalar along = product(units_[index(k)], distances[index(k)]);
+      for (int i = 0; i < active_.rows.size(); ++i) change[index(i)] -= product(share_of(i, column), along);
+    }
+    return change;
+  }
+
   const WarmStart& active() const noexcept { return active_; }
-  /// Of the active rows, none negative; to the digits that the table has left.
+  /// Of the active rows, none negative.
   const Six<Scalar>& multipliers() const noexcept { return multipliers_; }
   int steps() const noexcept { return steps_; }
 
@@ -80,6 +95,8 @@ class DualTableau {
   using Best = BestRow<Scalar, lanes>;
   struct alignas(64) Values : std::array<Scalar, std::size_t(row_capacity)> {};  // a number a row
   static constexpr int groups = row_capacity / lanes;
+  /// Share of its weight with nothing active that a row has to have left; of less, or of what the next row leaves of it, rounding is too much.
+  static Scalar independent() noexcept { return std::max(Scalar(1e-9), Scalar(1024 * std::numeric_limits<Scalar>::epsilon())); }
 
   static std::size_t index(int i) noexcept { return std::size_t(i); }
   static int whole_groups(int count) noexcept { return (count + lanes - 1) / lanes * lanes; }
@@ -174,7 +191,7 @@ class DualTableau {
       set(violation_, k, at(violation_, k) - product(step, at(column, k)));
       set(weight_, k, at(weight_, k) - product(product(factor, c), c));
     }
-    sweep(row, pivot, Scalar(-1) / product(unit, pivot));
+    sweep(row, Scalar(-1) / product(unit, pivot));
     violation_[index(row)] = Scalar(0);
     weight_[index(row)] = table_[index(row)][index(row)];
     active_.rows.swap_remove(leaving);
@@ -183,9 +200,9 @@ class DualTableau {
   }
 
   /// Exchanges the force of a row and what the tool moves off it.
-  /// @param pivot  its entry on the diagonal
   /// @param scale  of its column afterwards
-  void sweep(int row, Scalar pivot, Scalar scale) noexcept {
+  void sweep(int row, Scalar scale) noexcept {
+    const Scalar pivot = table_[index(row)][index(row)];
     const Group factor = spread<Group>(Scalar(1) / pivot);
     std::array<Group, std::size_t(groups)> entries;
     Values shares;
@@ -214,6 +231,7 @@ class DualTableau {
   WarmStart active_;
   Six<Scalar> multipliers_{}, units_{};  // of the active rows, and what makes shares of their multipliers of their columns
   int count_ = 0, steps_ = 0;
+  bool is_behind_ = false;  // the table, by the last row, which became active when nothing was left to follow
 };
 
 }  // namespace feeler::detail

@@ -70,10 +70,10 @@ class HeldMinimum {
     return true;
   }
 
-  /// The same where the multipliers are known.
+  /// The same where the multipliers are known; returns by how much x lies beside a row at most [m].
   /// @param rows  of the problem, that exist
-  void place(const QpProblem<Scalar>& problem, const Scalar* bounds, const WarmStart& rows, const Six<Scalar>& multipliers,
-             const InverseHessian<Scalar>& hessian, const Six<Scalar>& gradient) noexcept {
+  Scalar place(const QpProblem<Scalar>& problem, const Scalar* bounds, const WarmStart& rows, const Six<Scalar>& multipliers,
+               const InverseHessian<Scalar>& hessian, const Six<Scalar>& gradient) noexcept {
     Six<Scalar> force = hessian.solve_lower(gradient);
     for (int k = 0; k < rows.rows.size(); ++k) {
       const auto i = std::size_t(k);
@@ -81,7 +81,19 @@ class HeldMinimum {
       subtract(hessian.solve_lower(take_normal(problem, rows.rows[k], i)), multipliers[i], force);
     }
     follow(force, hessian);
-    look(bounds, rows);
+    return look(bounds, rows);
+  }
+
+  /// Moves x by a change of the multipliers; returns the same.
+  Scalar shift(const Scalar* bounds, const WarmStart& rows, const Six<Scalar>& change, const InverseHessian<Scalar>& hessian) noexcept {
+    SixBySix<Scalar> scaled;
+    const auto count = std::size_t(rows.rows.size());
+    for (std::size_t i = 0; i < count; ++i) {
+      multipliers_[i] = std::max(Scalar(0), multipliers_[i] + change[i]);
+      scaled[i] = multiply(hessian.inverse_pivots(), hessian.solve_lower(normals_[i]));
+    }
+    shift(change, scaled, count, hessian);
+    return look(bounds, rows);
   }
 
   const Six<Scalar>& x() const noexcept { return x_; }
@@ -125,11 +137,17 @@ class HeldMinimum {
   /// Takes back by how much rounding left x beside the rows.
   void meet(const InverseHessian<Scalar>& hessian, const SixBySix<Scalar>& scaled, const SixBySix<Scalar>& l, const Six<Scalar>& pivot_inverse,
             std::size_t count) noexcept {
-    Six<Scalar> along = lacking_, push{};
+    Six<Scalar> along = lacking_;
     solve(l, pivot_inverse, count, along);
+    shift(along, scaled, count, hessian);
+  }
+  /// Moves x by a change of the multipliers.
+  /// @param scaled  D⁻¹L⁻¹a of each row
+  void shift(const Six<Scalar>& change, const SixBySix<Scalar>& scaled, std::size_t count, const InverseHessian<Scalar>& hessian) noexcept {
+    Six<Scalar> push{};
     for (std::size_t i = count; i-- > 0;) {
 #pragma GCC unroll 6
-      for (std::size_t j = 0; j < 6; ++j) push[j] += product(along[i], scaled[i][j]);
+      for (std::size_t j = 0; j < 6; ++j) push[j] += product(change[i], scaled[i][j]);
     }
     push = hessian.solve_upper(push);
 #pragma GCC unroll 6
