@@ -23,16 +23,12 @@ BOOST_AUTO_TEST_SUITE(dual_tableau)
 namespace {
 
 using Problem = feeler::QpProblem<double>;
-using Six = feeler::detail::Six<double>;
 using Vector6 = feeler::Vector6<double>;
 
 template <int lanes>
 bool find(feeler::detail::DualTableau<double, lanes>& tableau, const Problem& problem) {
-  feeler::detail::InverseHessian<double> hessian;
-  BOOST_TEST_REQUIRE(hessian.factor(problem.hessian));
-  Six gradient;
-  std::copy_n(problem.gradient.data(), 6, gradient.begin());
-  return tableau.find(problem, problem.bounds.data(), hessian, gradient, 1e-12);
+  const feeler_test::Quadratic f(problem);
+  return tableau.find(problem, problem.bounds.data(), f.hessian, f.gradient, 1e-12);
 }
 
 /// Of all subsets of the rows, held with equality, one at which the conditions of optimality are met.
@@ -161,12 +157,9 @@ BOOST_AUTO_TEST_CASE(rows_that_nearly_depend_are_met_to_rounding_once_refined) {
     problem.add_row(1e-4 * feeler_test::random_six(bits) - first, -1.0 + 1e-5 * feeler_test::unit(bits));  // as a flat wedge
     if (!find(tableau, problem) || tableau.active().rows.size() < 2) continue;
     ++found;
-    feeler::detail::InverseHessian<double> hessian;
-    BOOST_TEST_REQUIRE(hessian.factor(problem.hessian));
-    Six gradient;
-    std::copy_n(problem.gradient.data(), 6, gradient.begin());
-    before = std::max(before, minimum.place(problem, problem.bounds.data(), tableau.active(), tableau.multipliers(), hessian, gradient));
-    for (int n = 0; n < 2; ++n) minimum.shift(problem.bounds.data(), tableau.active(), tableau.change_for(minimum.lacking()), hessian);
+    const feeler_test::Quadratic f(problem);
+    before = std::max(before, minimum.place(problem, problem.bounds.data(), tableau.active(), tableau.multipliers(), f.hessian, f.gradient));
+    for (int n = 0; n < 2; ++n) minimum.shift(problem.bounds.data(), tableau.active(), tableau.change_for(minimum.lacking()), f.hessian);
     const Eigen::Map<const Vector6> x(minimum.x().data());
     for (int k = 0; k < tableau.active().rows.size(); ++k) {
       const auto row = std::size_t(tableau.active().rows[k]);

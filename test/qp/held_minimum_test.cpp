@@ -19,7 +19,6 @@ BOOST_AUTO_TEST_SUITE(held_minimum)
 namespace {
 
 using Problem = feeler::QpProblem<double>;
-using Six = feeler::detail::Six<double>;
 using feeler::WarmStart;
 using feeler_test::general_problem;
 using feeler_test::random_six;
@@ -37,13 +36,9 @@ struct Attempt {
   bool is_found = false;
 
   Attempt(const Problem& problem, const WarmStart& start) {
-    feeler::detail::InverseHessian<double> hessian;
-    BOOST_TEST_REQUIRE(hessian.factor(problem.hessian));
-    Six gradient;
-    std::copy_n(problem.gradient.data(), 6, gradient.begin());
-    is_found = minimum.find(problem, problem.bounds.data(), start, hessian, gradient);
-    if (!is_found) return;
-    placed.place(problem, problem.bounds.data(), start, minimum.multipliers(), hessian, gradient);
+    const feeler_test::Quadratic f(problem);
+    is_found = minimum.find(problem, problem.bounds.data(), start, f.hessian, f.gradient);
+    if (is_found) placed.place(problem, problem.bounds.data(), start, minimum.multipliers(), f.hessian, f.gradient);
   }
 };
 

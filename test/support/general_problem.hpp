@@ -1,9 +1,14 @@
-// Quadratic programs of rows in general position.
+// Quadratic programs of rows in general position, and as the parts of a solver take them.
 #pragma once
 
+#include <boost/test/unit_test.hpp>
+
+#include <algorithm>
 #include <random>
 
+#include "feeler/qp/inverse_hessian.hpp"
 #include "feeler/qp/problem.hpp"
+#include "feeler/qp/six.hpp"
 #include "support/random_geometry.hpp"
 
 namespace feeler_test {
@@ -19,5 +24,16 @@ inline feeler::QpProblem<double> general_problem(std::mt19937& bits, int rows, b
   for (int k = 0; k < rows; ++k) problem.add_row(random_six(bits), unit(bits));
   return problem;
 }
+
+/// The function of a problem, its Hessian factored in place.
+struct Quadratic {
+  feeler::detail::InverseHessian<double> hessian;
+  feeler::detail::Six<double> gradient;
+
+  explicit Quadratic(const feeler::QpProblem<double>& problem) {
+    BOOST_TEST_REQUIRE(hessian.factor(problem.hessian));
+    std::copy_n(problem.gradient.data(), 6, gradient.begin());
+  }
+};
 
 }  // namespace feeler_test
