@@ -137,7 +137,7 @@ BOOST_AUTO_TEST_CASE(what_passes_is_clear_and_what_is_clear_passes) {
     planes.set(coarse);
 
     const BvhNode node = random_node(bits, size);
-    const auto passed = coarse.passed(node, planes.count);
+    const auto passed = coarse.passed(std::array{&node}, planes.count)[0];
     for (std::size_t i = 0; i < passed.size(); ++i) {
       const std::array<float, 3> lower{node.lower[0][i], node.lower[1][i], node.lower[2][i]}, upper{node.upper[0][i], node.upper[1][i], node.upper[2][i]};
       if (node.child[i] == 0) {
@@ -149,7 +149,7 @@ BOOST_AUTO_TEST_CASE(what_passes_is_clear_and_what_is_clear_passes) {
 
     const auto mesh = random_leaf(bits, size);
     const BvhLeaf& leaf = mesh.bvh().leaves()[0];
-    const auto parted = coarse.passed(leaf, planes.count);
+    const auto parted = coarse.passed(std::array{&leaf}, planes.count)[0];
     for (std::size_t i = 0; i < parted.size(); ++i) {
       if (leaf.triangle[i] < 0) continue;
       judge(parted[i] != 0, planes.room_above(corners_of(mesh, leaf.triangle[i])), rounding, triangles);
@@ -175,7 +175,7 @@ BOOST_AUTO_TEST_CASE(what_reaches_above_a_plane_by_less_than_rounding_does_not_p
       coarse.begin(to_boxes, size);
       for (int k = 0; k < 3; ++k) coarse.set_sides(k, -10 * size, 10 * size);
       coarse.set_plane(0, normal, double(height) - 1e-12 * size);
-      BOOST_TEST(coarse.passed(boxes, 1)[i] == 0);
+      BOOST_TEST(coarse.passed(std::array{&boxes}, 1)[0][i] == 0);
     };
     const BvhNode node = random_node(bits, size);
     const auto mesh = random_leaf(bits, size);
@@ -187,39 +187,49 @@ BOOST_AUTO_TEST_CASE(what_reaches_above_a_plane_by_less_than_rounding_does_not_p
   }
 }
 
-BOOST_AUTO_TEST_CASE(any_number_of_lanes_gives_the_same_answers_and_hits) {
+BOOST_AUTO_TEST_CASE(any_number_of_lanes_and_of_nodes_at_once_gives_the_same_answers_and_hits) {
   for (unsigned seed = 1; seed <= 200; ++seed) {
     BOOST_TEST_MESSAGE("seed " << seed);
     std::mt19937 bits(seed);
     const Planes planes(bits, Vector(0.1, 0.2, -0.1), 1.0);
     feeler::CoarsePlanes<double, capacity, 4> four;
     feeler::CoarsePlanes<double, capacity, 2> two;
-    feeler::CoarsePlanes<double, capacity, 1> one;
-    const auto for_all = [&](const auto& call) {
-      call(four);
-      call(two);
-      call(one);
+    feeler::CoarsePlanes<double, capacity, 1> one, no_planes;
+    planes.set(four), planes.set(two), planes.set(one), planes.set(no_planes);
+    std::vector<int> hits(std::size_t(planes.count), 0);
+    const auto check = [&](const auto& boxes) {  // pointers to four
+      const auto at_once = four.passed(boxes, planes.count);
+      for (std::size_t i = 0; i < boxes.size(); ++i) {
+        const std::array single{boxes[i]};
+        const auto expected = one.passed(single, planes.count)[0];
+        BOOST_TEST((at_once[i] == expected));
+        BOOST_TEST((two.passed(single, planes.count)[0] == expected));
+        auto before = no_planes.passed(single, 0)[0];
+        for (int plane = 0; plane < planes.count; ++plane) {
+          const auto after = no_planes.passed(single, plane + 1)[0];
+          for (std::size_t lane = 0; lane < before.size(); ++lane) hits[std::size_t(plane)] += after[lane] != 0 && before[lane] == 0 ? 1 : 0;
+          before = after;
+        }
+      }
     };
-    for_all([&](auto& coarse) { planes.set(coarse); });
-    int passed = 0, hits = 0;
-    for (int k = 0; k < 10; ++k) {
-      const BvhNode node = random_node(bits, 1.0);
-      const auto expected = one.passed(node, planes.count);
-      BOOST_TEST((four.passed(node, planes.count) == expected));
-      BOOST_TEST((two.passed(node, planes.count) == expected));
-      feeler::CoarsePlanes<double, capacity> no_planes;
-      planes.set(no_planes);
-      const auto beyond = no_planes.passed(node, 0);
-      for (std::size_t i = 0; i < expected.size(); ++i) passed += expected[i] != 0 && beyond[i] == 0 ? 1 : 0;
+    for (int k = 0; k < 3; ++k) {
+      std::array<BvhNode, 4> nodes;
+      for (BvhNode& node : nodes) node = random_node(bits, 1.0);
+      check(std::array<const BvhNode*, 4>{&nodes[0], &nodes[1], &nodes[2], &nodes[3]});
+      const auto mesh = random_leaf(bits, 1.0);
+      const BvhLeaf& leaf = mesh.bvh().leaves()[0];
+      check(std::array<const BvhLeaf*, 4>{&leaf, &leaf, &leaf, &leaf});
     }
-    for (int i = 0; i < planes.count; ++i) {
-      const int once = one.take_hits(i);
-      hits += once;
-      BOOST_TEST(four.take_hits(i) == once);
-      BOOST_TEST(two.take_hits(i) == once);
-      BOOST_TEST(one.take_hits(i) == 0);
-    }
-    BOOST_TEST(hits == passed);
+    int taken = 0;
+    const auto are_hits = [&](int plane, int count) {
+      BOOST_TEST(count == hits[std::size_t(plane)]);
+      ++taken;
+    };
+    four.take_hits(planes.count, are_hits);
+    two.take_hits(planes.count, are_hits);
+    one.take_hits(planes.count, are_hits);
+    BOOST_TEST(taken == 3 * planes.count);
+    four.take_hits(planes.count, [](int, int count) { BOOST_TEST(count == 0); });
   }
 }
 

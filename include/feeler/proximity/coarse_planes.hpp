@@ -1,4 +1,4 @@
-// The planes of a sweep in single precision, held against four boxes or four triangles of a hierarchy at a time.
+// The planes of a sweep in single precision, held against the boxes and the triangles of a hierarchy, four and more at a time.
 #pragma once
 
 #include <algorithm>
@@ -46,34 +46,45 @@ class CoarsePlanes {
     }
     plane.limit = detail::spread<Group>(rounded_down(limit + normal.dot(to_boxes_)));
   }
-  /// What a plane has passed since it was last asked, or set first.
-  int take_hits(int i) noexcept {
-    Plane& plane = planes_[std::size_t(i)];
-    int sum = 0;
-    for (const Mask& hits : plane.hits) {
-      for (const std::int32_t lane : detail::in_lanes<std::int32_t>(hits)) sum += lane;
+  /// Calls `count_hits(i, hits)` for each of the first `count` planes: of what has not passed those before it, how much it has since this was last
+  /// called. All planes held against boxes and triangles since then are among them.
+  template <class CountHits>
+  void take_hits(int count, const CountHits& count_hits) noexcept {
+    int before = sum_of(beyond_);
+    beyond_ = {};
+    for (int i = 0; i < count; ++i) {
+      Masks& passed = planes_[std::size_t(i)].passed;
+      const int so_far = sum_of(passed);
+      passed = {};
+      count_hits(i, so_far - before);
+      before = so_far;
     }
-    plane.hits = {};
-    return sum;
   }
 
+  /// What has passed of some nodes; together they take less time than one after the other.
   /// @param count  of the planes that are held against them
-  Passed passed(const BvhNode& node, int count) noexcept {
-    Masks beyond{};
-    for (std::size_t k = 0; k < 3; ++k) {
+  template <std::size_t n>
+  std::array<Passed, n> passed(const std::array<const BvhNode*, n>& nodes, int count) noexcept {
+    std::array<Masks, n> beyond{};
+    for (std::size_t i = 0; i < n; ++i) {
       for (std::size_t g = 0; g < groups; ++g) {
-        beyond[g] |= at_most(load(node.upper[k], g), lower_[k]) | at_most(upper_[k], load(node.lower[k], g));
+        for (std::size_t k = 0; k < 3; ++k)
+          beyond[i][g] |= at_most(load(nodes[i]->upper[k], g), lower_[k]) | at_most(upper_[k], load(nodes[i]->lower[k], g));
+        beyond_[g] -= beyond[i][g];
       }
     }
-    return sift(beyond, count, [&](const Plane& plane, std::size_t g) {
-      const auto farthest = [&](std::size_t k) { return load((node.*plane.farthest[k])[k], g); };
+    return sift(beyond, count, [&nodes](const Plane& plane, std::size_t i, std::size_t g) {
+      const auto farthest = [&](std::size_t k) { return load((nodes[i]->*plane.farthest[k])[k], g); };
       return height(plane.normal, farthest(0), farthest(1), farthest(2));
     });
   }
-  Passed passed(const BvhLeaf& leaf, int count) noexcept {
-    return sift({}, count, [&](const Plane& plane, std::size_t g) {
+  /// The same of some leaves.
+  template <std::size_t n>
+  std::array<Passed, n> passed(const std::array<const BvhLeaf*, n>& leaves, int count) noexcept {
+    return sift(std::array<Masks, n>{}, count, [&leaves](const Plane& plane, std::size_t i, std::size_t g) {
       const auto height_of = [&](const auto& corner) { return height(plane.normal, load(corner[0], g), load(corner[1], g), load(corner[2], g)); };
-      return detail::greater(detail::greater(height_of(leaf.corner[0]), height_of(leaf.corner[1])), height_of(leaf.corner[2]));
+      const auto& corner = leaves[i]->corner;
+      return detail::greater(detail::greater(height_of(corner[0]), height_of(corner[1])), height_of(corner[2]));
     });
   }
 
@@ -86,7 +97,7 @@ class CoarsePlanes {
   struct Plane {
     std::array<Group, 3> normal;
     Group limit;
-    Masks hits{};
+    Masks passed{};  // how many, in each lane, had passed after it was held against them
     std::array<float (BvhNode::*)[3][width], 3> farthest;  // which side of a box it is along the normal, by axis
   };
 
@@ -96,20 +107,35 @@ class CoarsePlanes {
     return detail::product(normal[0], x) + detail::product(normal[1], y) + detail::product(normal[2], z);
   }
 
-  template <class HeightAlong>
-  Passed sift(Masks passed, int count, const HeightAlong& height_along) noexcept {
-    for (int i = 0; i < count; ++i) {
-      Plane& plane = planes_[std::size_t(i)];
+  /// @param height_along  of a plane's normal, of item i, lanes g
+  template <std::size_t n, class HeightAlong>
+  std::array<Passed, n> sift(std::array<Masks, n> passed, int count, const HeightAlong& height_along) noexcept {
+    for (int k = 0; k < count; ++k) {
+      Plane& plane = planes_[std::size_t(k)];
+#pragma GCC unroll 4
       for (std::size_t g = 0; g < groups; ++g) {
-        const Mask before = passed[g];
-        passed[g] |= at_most(height_along(plane, g), plane.limit);
-        plane.hits[g] -= passed[g] ^ before;
+        Mask so_far = plane.passed[g];
+#pragma GCC unroll 4
+        for (std::size_t i = 0; i < n; ++i) {
+          passed[i][g] |= at_most(height_along(plane, i, g), plane.limit);
+          so_far -= passed[i][g];
+        }
+        plane.passed[g] = so_far;
       }
     }
-    Passed answers;
-    for (std::size_t g = 0; g < groups; ++g)
-      std::ranges::copy(detail::in_lanes<std::int32_t>(passed[g]), answers.begin() + std::ptrdiff_t(g) * lanes);
+    std::array<Passed, n> answers;
+    for (std::size_t i = 0; i < n; ++i) {
+      for (std::size_t g = 0; g < groups; ++g)
+        std::ranges::copy(detail::in_lanes<std::int32_t>(passed[i][g]), answers[i].begin() + std::ptrdiff_t(g) * lanes);
+    }
     return answers;
+  }
+  static int sum_of(const Masks& counts) noexcept {
+    int sum = 0;
+    for (const Mask& group : counts) {
+      for (const std::int32_t lane : detail::in_lanes<std::int32_t>(group)) sum += lane;
+    }
+    return sum;
   }
 
   /// Gives away what the rounding of normals, corners and heights could gain.
@@ -121,6 +147,7 @@ class CoarsePlanes {
   Vector3<Scalar> to_boxes_;
   float extent_;
   std::array<Group, 3> lower_, upper_;
+  Masks beyond_{};  // how many have been beyond a side
   std::array<Plane, std::size_t(capacity)> planes_;
 };
 

@@ -169,22 +169,26 @@ class Sweep {
       count %= nodes_per_work;
       if (work > limit && !goes_on(limit)) return false;
       if (!BvhNode::is_leaf(next.front())) {
-        for (const std::int32_t entry : next) {
-          const BvhNode& node = bvh.nodes()[std::size_t(entry)];
-          waiting.push_children(node, coarse_.passed(node, planes_.size()));
-        }
+        in_groups_of<Order::side_by_side>(next, [&](const auto& entries) {
+          const auto nodes = each_of(entries, [&](std::int32_t entry) { return &bvh.nodes()[std::size_t(entry)]; });
+          const auto passed = coarse_.passed(nodes, planes_.size());
+          for (std::size_t i = 0; i < nodes.size(); ++i) waiting.push_children(*nodes[i], passed[i]);
+        });
         continue;
       }
       std::array<std::int32_t, std::size_t(Order::leaves_at_once * BvhLeaf::width + 1)> suspects;  // one more is written, and not counted
       std::size_t suspect_count = 0;
-      for (const std::int32_t entry : next) {
-        const BvhLeaf& leaf = bvh.leaves()[std::size_t(~entry)];
-        const auto passed = coarse_.passed(leaf, planes_.size());
-        for (std::size_t i = 0; i < passed.size(); ++i) {
-          suspects[suspect_count] = leaf.triangle[i];
-          suspect_count += std::size_t((passed[i] == 0) & (leaf.triangle[i] >= 0));
+      in_groups_of<Order::side_by_side>(next, [&](const auto& entries) {
+        const auto leaves = each_of(entries, [&](std::int32_t entry) { return &bvh.leaves()[std::size_t(~entry)]; });
+        const auto passed = coarse_.passed(leaves, planes_.size());
+        for (std::size_t i = 0; i < leaves.size(); ++i) {
+          for (std::size_t lane = 0; lane < passed[i].size(); ++lane) {
+            const std::int32_t triangle = leaves[i]->triangle[lane];
+            suspects[suspect_count] = triangle;
+            suspect_count += std::size_t((passed[i][lane] == 0) & (triangle >= 0));
+          }
         }
-      }
+      });
       for (std::size_t i = 0; i < suspect_count; ++i) {
         const int triangle = suspects[i];
         if (i > 0 && i % BvhLeaf::width == 0 && work > limit && !goes_on(limit)) return false;  // as leaf by leaf
@@ -194,6 +198,26 @@ class Sweep {
       }
     }
     return true;
+  }
+
+  /// Calls `visit` with arrays of so many entries, and of one for each that is left.
+  template <std::size_t size, class Visit>
+  static void in_groups_of(std::span<const std::int32_t> entries, const Visit& visit) noexcept {
+    std::size_t i = 0;
+    if constexpr (size > 1) {
+      for (; i + size <= entries.size(); i += size) {
+        std::array<std::int32_t, size> group;
+        std::copy_n(entries.begin() + std::ptrdiff_t(i), size, group.begin());
+        visit(group);
+      }
+    }
+    for (; i < entries.size(); ++i) visit(std::array{entries[i]});
+  }
+  template <std::size_t n, class Find>
+  static auto each_of(const std::array<std::int32_t, n>& entries, const Find& find) noexcept {
+    std::array<decltype(find(0)), n> found;
+    std::transform(entries.begin(), entries.end(), found.begin(), find);
+    return found;
   }
 
   static SweepResult<Scalar> give_up(SweepResult<Scalar>& result) noexcept {
@@ -261,7 +285,7 @@ class Sweep {
   }
 
   void count_hits() noexcept {
-    for (int i = 0; i < planes_.size(); ++i) planes_.count_hits(i, coarse_.take_hits(i));
+    coarse_.take_hits(planes_.size(), [this](int i, int hits) { planes_.count_hits(i, hits); });
   }
 
   [[gnu::flatten, gnu::noinline]]

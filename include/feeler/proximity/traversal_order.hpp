@@ -19,6 +19,7 @@ namespace feeler {
 class NearestFirst {
  public:
   static constexpr int leaves_at_once = 1;
+  static constexpr std::size_t side_by_side = 1;  ///< nodes, or leaves, that planes are held against at a time
 
   /// @param motion  of the tool, world [m]
   explicit NearestFirst(const Vector3<float>& motion) noexcept : motion_(motion) { waiting_.push_back(0); }
@@ -62,6 +63,7 @@ class InBatches {
 
  public:
   static constexpr int leaves_at_once = batch + pushed;
+  static constexpr std::size_t side_by_side = 4;
 
   explicit InBatches(const Vector3<float>& /*motion*/) noexcept { nodes_[0] = 0; }  // the root
 
@@ -75,13 +77,16 @@ class InBatches {
     return {taken_.data(), std::size_t(count)};
   }
   void push_children(const BvhNode& node, const std::array<std::int32_t, BvhNode::width>& passed) noexcept {
+    int node_count = node_count_, leaf_count = leaf_count_;  // what is written may not be them
     for (std::size_t i = 0; i < passed.size(); ++i) {
       const std::int32_t child = node.child[i];
       const bool stays = passed[i] == 0, is_leaf = BvhNode::is_leaf(child);
-      nodes_[std::size_t(node_count_)] = leaves_[std::size_t(leaf_count_)] = child;
-      node_count_ += int(stays & !is_leaf);
-      leaf_count_ += int(stays & is_leaf);
+      nodes_[std::size_t(node_count)] = leaves_[std::size_t(leaf_count)] = child;
+      node_count += int(stays & !is_leaf);
+      leaf_count += int(stays & is_leaf);
     }
+    node_count_ = node_count;
+    leaf_count_ = leaf_count;
   }
 
  private:
