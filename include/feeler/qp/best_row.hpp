@@ -1,6 +1,7 @@
 // The best of many rows, looked at side by side.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <bit>
 #include <cstddef>
@@ -14,6 +15,13 @@ namespace feeler::detail {
 
 /// Of a row's weight with nothing active, as which it is weighed where active rows leave less of it free to move.
 constexpr double least_share = 1e-3;
+
+/// Angle that a row makes with the span of active ones, in the metric of H⁻¹, below which it depends on them: rounding leaves no more of one that is
+/// projected twice [rad].
+template <RealScalar Scalar>
+Scalar dependent_angle() noexcept {
+  return std::max(Scalar(1e-8), Scalar(16 * std::numeric_limits<Scalar>::epsilon()));
+}
 
 /// Keeps the score of a row of zeros finite.
 template <RealScalar Scalar>

@@ -66,8 +66,7 @@ class DualActiveSet {
     is_careful_ = false;
     bounds_ = problem.bounds.data();
     accepted_ = tolerance;
-    // What rounding leaves of a row that is projected twice, or more.
-    dependent_angle_ = std::max(Scalar(1e-8), Scalar(16 * std::numeric_limits<Scalar>::epsilon()));
+    dependent_angle_ = detail::dependent_angle<Scalar>();
     WarmStart alone;  // a row alone is most likely active
     if (problem.row_count == 1) alone.rows.push_back(0);
     const WarmStart* known = start.rows.empty() ? &alone : &start;

@@ -25,7 +25,7 @@ namespace feeler::detail {
 /// Statistician 33 (1979); forces of active rows are kept in a unit in which the row's own column stays as it is.
 ///
 /// Rows are chosen as by `RowScan`, and every lane computed alike, however many there are. Where a row all but depends on active ones, by an angle
-/// below 3e-5 rad, the table has too few digits left, and it gives up.
+/// below 3e-4 rad, the table has too few digits of it left, and its column is computed afresh; where it depends on them, the table gives up.
 template <RealScalar Scalar, int lanes>
 class DualTableau {
  public:
@@ -48,8 +48,11 @@ class DualTableau {
     for (steps_ = 0; entering >= 0; ++steps_) {
       const std::size_t row = index(entering);
       const Values& column = table_[row];
+      if (steps_ == most_steps || active_.rows.full()) return false;
+      const Scalar whole = Scalar(1 / least_share) * least_weight_[row];
+      if (!(weight_[row] > rough() * whole)) measure_again(entering, hessian.inverse_pivots());
       const Scalar slope = weight_[row];  // known before the row's own column
-      if (steps_ == most_steps || active_.rows.full() || !(slope > independent() * Scalar(1 / least_share) * least_weight_[row])) return false;
+      if (!(slope > independent() * whole)) return false;
       Scalar step = violation_[row] / slope;
       const int leaving = first_to_leave(column, step);
       multiplier += step;
@@ -95,8 +98,10 @@ class DualTableau {
   using Best = BestRow<Scalar, lanes>;
   struct alignas(64) Values : std::array<Scalar, std::size_t(row_capacity)> {};  // a number a row
   static constexpr int groups = row_capacity / lanes;
-  /// Share of its weight with nothing active that a row has to have left; of less, or of what the next row leaves of it, rounding is too much.
-  static Scalar independent() noexcept { return std::max(Scalar(1e-9), Scalar(1024 * std::numeric_limits<Scalar>::epsilon())); }
+  /// Share of its weight with nothing active that a row has to have left.
+  static Scalar independent() noexcept { return dependent_angle<Scalar>() * dependent_angle<Scalar>(); }
+  /// Share of which the table has too few digits.
+  static Scalar rough() noexcept { return std::max(Scalar(1e-7), Scalar(1024 * std::numeric_limits<Scalar>::epsilon())); }
 
   static std::size_t index(int i) noexcept { return std::size_t(i); }
   static int whole_groups(int count) noexcept { return (count + lanes - 1) / lanes * lanes; }
@@ -144,6 +149,49 @@ class DualTableau {
         set(table_[index(i)], k, dot_of_six<Group>(y, scaled));
       }
       for (int k = whole_groups(count_); k < row_capacity; k += lanes) set(table_[index(i)], k, Group{});
+    }
+  }
+
+  /// Column and weight of a row that all but depends on the active ones, by what is left of it beside them.
+  ///
+  /// The table tells how far it is their sum; taken from the row itself twice (W. Kahan, in B. Parlett, "The Symmetric Eigenvalue Problem",
+  /// section 6-9) that leaves as many digits of the rest as a scalar has.
+  [[gnu::noinline]]
+  void measure_again(int entering, const Six<Scalar>& d_inverse) noexcept {
+    const int count = active_.rows.size();
+    Values& column = table_[index(entering)];
+    Six<Scalar> rest = row_of(lower_, entering), share{};
+    for (int i = 0; i < count; ++i) share[index(i)] = share_of(i, column);
+    take(share, rest);
+    Six<Scalar> along{};
+    for (int i = 0; i < count; ++i) along[index(i)] = dot(row_of(scaled_, active_.rows[i]), rest);
+    const Six<Scalar> change = change_for(along);
+    take(change, rest);
+    SixGroups rests;
+#pragma GCC unroll 6
+    for (std::size_t j = 0; j < 6; ++j) rests[j] = spread<Group>(rest[j]);
+    for (int k = 0; k < count_; k += lanes) {
+      SixGroups scaled;
+#pragma GCC unroll 6
+      for (std::size_t j = 0; j < 6; ++j) scaled[j] = at(scaled_[j], k);
+      set(column, k, dot_of_six<Group>(scaled, rests));
+    }
+    for (int i = 0; i < count; ++i) column[index(active_.rows[i])] = (share[index(i)] + change[index(i)]) / units_[index(i)];
+    weight_[index(entering)] = column[index(entering)] = dot(multiply(d_inverse, rest), rest);
+    for (int k = 0; k < count_; ++k) table_[index(k)][index(entering)] = column[index(k)];
+  }
+  static Six<Scalar> row_of(const std::array<Values, 6>& columns, int row) noexcept {
+    Six<Scalar> numbers;
+#pragma GCC unroll 6
+    for (std::size_t j = 0; j < 6; ++j) numbers[j] = columns[j][index(row)];
+    return numbers;
+  }
+  /// Takes shares of the active rows from one.
+  void take(const Six<Scalar>& shares, Six<Scalar>& rest) const noexcept {
+    for (int i = 0; i < active_.rows.size(); ++i) {
+      const Six<Scalar> row = row_of(lower_, active_.rows[i]);
+#pragma GCC unroll 6
+      for (std::size_t j = 0; j < 6; ++j) rest[j] -= product(shares[index(i)], row[j]);
     }
   }
 
