@@ -213,6 +213,7 @@ class Sweep {
     }
     for (; i < entries.size(); ++i) visit(std::array{entries[i]});
   }
+  /// What `find` gives for each entry.
   template <std::size_t n, class Find>
   static auto each_of(const std::array<std::int32_t, n>& entries, const Find& find) noexcept {
     std::array<decltype(find(0)), n> found;

@@ -77,7 +77,7 @@ class InBatches {
     return {taken_.data(), std::size_t(count)};
   }
   void push_children(const BvhNode& node, const std::array<std::int32_t, BvhNode::width>& passed) noexcept {
-    int node_count = node_count_, leaf_count = leaf_count_;  // what is written may not be them
+    int node_count = node_count_, leaf_count = leaf_count_;  // a compiler has to take members for overwritten by what is pushed
     for (std::size_t i = 0; i < passed.size(); ++i) {
       const std::int32_t child = node.child[i];
       const bool stays = passed[i] == 0, is_leaf = BvhNode::is_leaf(child);

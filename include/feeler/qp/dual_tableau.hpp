@@ -139,16 +139,21 @@ class DualTableau {
   /// The whole table.
   void fill() noexcept {
     for (int i = 0; i < count_; ++i) {
-      SixGroups scaled;
-#pragma GCC unroll 6
-      for (std::size_t j = 0; j < 6; ++j) scaled[j] = spread<Group>(scaled_[j][index(i)]);
-      for (int k = 0; k < count_; k += lanes) {
-        SixGroups y;
-#pragma GCC unroll 6
-        for (std::size_t j = 0; j < 6; ++j) y[j] = at(lower_[j], k);
-        set(table_[index(i)], k, dot_of_six<Group>(y, scaled));
-      }
+      fill_row(i, [&](std::size_t j) -> const Scalar& { return scaled_[j][index(i)]; });
       for (int k = whole_groups(count_); k < row_capacity; k += lanes) set(table_[index(i)], k, Group{});
+    }
+  }
+  /// @param scaled  of D⁻¹ times what is left of L⁻¹a of the row, number j
+  template <class Scaled>
+  [[gnu::always_inline]] inline void fill_row(int row, const Scaled& scaled) noexcept {
+    SixGroups by;
+#pragma GCC unroll 6
+    for (std::size_t j = 0; j < 6; ++j) by[j] = spread<Group>(scaled(j));
+    for (int k = 0; k < count_; k += lanes) {
+      SixGroups y;
+#pragma GCC unroll 6
+      for (std::size_t j = 0; j < 6; ++j) y[j] = at(lower_[j], k);
+      set(table_[index(row)], k, dot_of_six<Group>(y, by));
     }
   }
 
@@ -167,17 +172,10 @@ class DualTableau {
     for (int i = 0; i < count; ++i) along[index(i)] = dot(row_of(scaled_, active_.rows[i]), rest);
     const Six<Scalar> change = change_for(along);
     take(change, rest);
-    SixGroups rests;
-#pragma GCC unroll 6
-    for (std::size_t j = 0; j < 6; ++j) rests[j] = spread<Group>(rest[j]);
-    for (int k = 0; k < count_; k += lanes) {
-      SixGroups scaled;
-#pragma GCC unroll 6
-      for (std::size_t j = 0; j < 6; ++j) scaled[j] = at(scaled_[j], k);
-      set(column, k, dot_of_six<Group>(scaled, rests));
-    }
+    const Six<Scalar> scaled = multiply(d_inverse, rest);
+    fill_row(entering, [&](std::size_t j) -> const Scalar& { return scaled[j]; });
     for (int i = 0; i < count; ++i) column[index(active_.rows[i])] = (share[index(i)] + change[index(i)]) / units_[index(i)];
-    weight_[index(entering)] = column[index(entering)] = dot(multiply(d_inverse, rest), rest);
+    weight_[index(entering)] = column[index(entering)] = dot(scaled, rest);
     for (int k = 0; k < count_; ++k) table_[index(k)][index(entering)] = column[index(k)];
   }
   static Six<Scalar> row_of(const std::array<Values, 6>& columns, int row) noexcept {
