@@ -32,6 +32,15 @@ bool find(feeler::detail::DualTableau<double, lanes>& tableau, const Problem& pr
   return tableau.find(problem, problem.bounds.data(), f.hessian, f.gradient, 1e-12);
 }
 
+/// Rows in general position, and behind them one that all but faces the first.
+Problem flat_wedge(std::mt19937& bits, int rows, bool is_diagonal, double angle) {
+  Problem problem = feeler_test::general_problem(bits, rows, is_diagonal);
+  const Vector6 first = problem.rows[0];
+  problem.bounds[0] = 1.0;
+  problem.add_row(angle * feeler_test::random_six(bits) - first, -1.0 + 0.1 * angle * feeler_test::unit(bits));
+  return problem;
+}
+
 /// Of all subsets of the rows, held with equality, one at which the conditions of optimality are met.
 struct Optimum {
   std::vector<int> rows;
@@ -153,10 +162,7 @@ BOOST_AUTO_TEST_CASE(forces_in_a_flat_wedge_lose_few_of_the_digits_that_its_tabl
     int found = 0;
     double worst = 0;
     for (int i = 0; i < 1000; ++i) {
-      Problem problem = feeler_test::general_problem(bits, 1 + i % 5, i % 4 == 0);
-      const Vector6 first = problem.rows[0];
-      problem.bounds[0] = 1.0;
-      problem.add_row(angle * feeler_test::random_six(bits) - first, -1.0 + 0.1 * angle * feeler_test::unit(bits));
+      const Problem problem = flat_wedge(bits, 1 + i % 5, i % 4 == 0, angle);
       if (!find(tableau, problem)) continue;
       const auto& rows = tableau.active().rows;
       const auto is_active = [&](int row) { return std::find(rows.begin(), rows.end(), row) != rows.end(); };
@@ -190,10 +196,7 @@ BOOST_AUTO_TEST_CASE(rows_that_nearly_depend_are_met_to_rounding_once_refined) {
   int found = 0;
   double before = 0;
   for (int i = 0; i < 2000; ++i) {
-    Problem problem = feeler_test::general_problem(bits, 1 + i % 5, i % 4 == 0);
-    const Vector6 first = problem.rows[0];
-    problem.bounds[0] = 1.0;
-    problem.add_row(1e-4 * feeler_test::random_six(bits) - first, -1.0 + 1e-5 * feeler_test::unit(bits));  // as a flat wedge
+    const Problem problem = flat_wedge(bits, 1 + i % 5, i % 4 == 0, 1e-4);
     if (!find(tableau, problem) || tableau.active().rows.size() < 2) continue;
     ++found;
     const feeler_test::Quadratic f(problem);
