@@ -107,7 +107,7 @@ class CoarsePlanes {
     return detail::product(normal[0], x) + detail::product(normal[1], y) + detail::product(normal[2], z);
   }
 
-  /// @param height_along  of a plane's normal, of item i, lanes g
+  /// @param height_along  along a plane's normal, of box or triangle i, in group g of its lanes
   template <std::size_t n, class HeightAlong>
   std::array<Passed, n> sift(std::array<Masks, n> passed, int count, const HeightAlong& height_along) noexcept {
     for (int k = 0; k < count; ++k) {

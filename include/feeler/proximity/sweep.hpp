@@ -169,8 +169,8 @@ class Sweep {
       count %= nodes_per_work;
       if (work > limit && !goes_on(limit)) return false;
       if (!BvhNode::is_leaf(next.front())) {
-        in_groups_of<Order::side_by_side>(next, [&](const auto& entries) {
-          const auto nodes = each_of(entries, [&](std::int32_t entry) { return &bvh.nodes()[std::size_t(entry)]; });
+        const auto node_of = [&](std::int32_t entry) { return &bvh.nodes()[std::size_t(entry)]; };
+        in_groups_of<Order::side_by_side>(next, node_of, [&](const auto& nodes) {
           const auto passed = coarse_.passed(nodes, planes_.size());
           for (std::size_t i = 0; i < nodes.size(); ++i) waiting.push_children(*nodes[i], passed[i]);
         });
@@ -178,8 +178,8 @@ class Sweep {
       }
       std::array<std::int32_t, std::size_t(Order::leaves_at_once * BvhLeaf::width + 1)> suspects;  // one more is written, and not counted
       std::size_t suspect_count = 0;
-      in_groups_of<Order::side_by_side>(next, [&](const auto& entries) {
-        const auto leaves = each_of(entries, [&](std::int32_t entry) { return &bvh.leaves()[std::size_t(~entry)]; });
+      const auto leaf_of = [&](std::int32_t entry) { return &bvh.leaves()[std::size_t(~entry)]; };
+      in_groups_of<Order::side_by_side>(next, leaf_of, [&](const auto& leaves) {
         const auto passed = coarse_.passed(leaves, planes_.size());
         for (std::size_t i = 0; i < leaves.size(); ++i) {
           for (std::size_t lane = 0; lane < passed[i].size(); ++lane) {
@@ -200,25 +200,16 @@ class Sweep {
     return true;
   }
 
-  /// Calls `visit` with arrays of so many entries, and of one for each that is left.
-  template <std::size_t size, class Visit>
-  static void in_groups_of(std::span<const std::int32_t> entries, const Visit& visit) noexcept {
+  /// Calls `visit` with arrays of what `find` gives for so many entries, and of one for each that is left.
+  template <std::size_t size, class Find, class Visit>
+  static void in_groups_of(std::span<const std::int32_t> entries, const Find& find, const Visit& visit) noexcept {
     std::size_t i = 0;
-    if constexpr (size > 1) {
-      for (; i + size <= entries.size(); i += size) {
-        std::array<std::int32_t, size> group;
-        std::copy_n(entries.begin() + std::ptrdiff_t(i), size, group.begin());
-        visit(group);
-      }
+    for (; i + size <= entries.size(); i += size) {
+      std::array<decltype(find(0)), size> group;
+      for (std::size_t j = 0; j < size; ++j) group[j] = find(entries[i + j]);
+      visit(group);
     }
-    for (; i < entries.size(); ++i) visit(std::array{entries[i]});
-  }
-  /// What `find` gives for each entry.
-  template <std::size_t n, class Find>
-  static auto each_of(const std::array<std::int32_t, n>& entries, const Find& find) noexcept {
-    std::array<decltype(find(0)), n> found;
-    std::transform(entries.begin(), entries.end(), found.begin(), find);
-    return found;
+    for (; i < entries.size(); ++i) visit(std::array{find(entries[i])});
   }
 
   static SweepResult<Scalar> give_up(SweepResult<Scalar>& result) noexcept {

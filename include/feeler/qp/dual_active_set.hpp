@@ -407,8 +407,7 @@ class DualActiveSet {
       slack -= detail::product(share, allowed(normal));
       const Scalar drift = bounds_[slots_[index(i)]] - detail::dot(normal, x_);  // of x off this row
       violation -= detail::product(share, drift);
-#pragma GCC unroll 6
-      for (std::size_t j = 0; j < 6; ++j) rest[j] -= detail::product(share, normal[j]);
+      detail::subtract(normal, share, rest);
     }
     const Scalar allowed_rest =
         std::max(Scalar(1e-12), Scalar(64 * std::numeric_limits<Scalar>::epsilon())) * detail::size_of(a);

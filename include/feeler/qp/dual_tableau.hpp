@@ -186,11 +186,7 @@ class DualTableau {
   }
   /// Takes shares of the active rows from one.
   void take(const Six<Scalar>& shares, Six<Scalar>& rest) const noexcept {
-    for (int i = 0; i < active_.rows.size(); ++i) {
-      const Six<Scalar> row = row_of(lower_, active_.rows[i]);
-#pragma GCC unroll 6
-      for (std::size_t j = 0; j < 6; ++j) rest[j] -= product(shares[index(i)], row[j]);
-    }
+    for (int i = 0; i < active_.rows.size(); ++i) subtract(row_of(lower_, active_.rows[i]), shares[index(i)], rest);
   }
 
   /// The active row, by its place, whose force ends first within a step, which ends there; −1 if none does.

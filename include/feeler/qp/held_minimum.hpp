@@ -112,10 +112,6 @@ class HeldMinimum {
     return a;
   }
 
-  static void subtract(const Six<Scalar>& y, const Scalar& multiplier, Six<Scalar>& force) noexcept {
-#pragma GCC unroll 6
-    for (std::size_t j = 0; j < 6; ++j) force[j] -= product(multiplier, y[j]);
-  }
   /// x is where a force L⁻¹(g − Aᵀλ) leads.
   void follow(Six<Scalar> force, const InverseHessian<Scalar>& hessian) noexcept {
 #pragma GCC unroll 6

@@ -47,6 +47,13 @@ inline Six<Scalar> multiply(const SixBySix<Scalar>& m, const Six<Scalar>& v) noe
   return image;
 }
 
+/// Takes a multiple of one vector from another.
+template <class Scalar>
+inline void subtract(const Six<Scalar>& a, const Scalar& multiple, Six<Scalar>& from) noexcept {
+#pragma GCC unroll 6
+  for (std::size_t j = 0; j < 6; ++j) from[j] -= product(multiple, a[j]);
+}
+
 template <class Scalar>
 inline Scalar magnitude(const Scalar& value) noexcept {
   using std::abs;
