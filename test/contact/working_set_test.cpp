@@ -21,7 +21,7 @@ BOOST_AUTO_TEST_CASE(a_triangle_is_found_where_it_was_added_and_starts_with_noth
     BOOST_TEST((pair.corners_world == Corners::Constant(i)));
     BOOST_TEST(pair.normal.isZero(0));
     BOOST_TEST(pair.features.size == 0);
-    BOOST_TEST(pair.idle_ticks == 0);
+    BOOST_TEST(pair.unused_ticks == 0);
     BOOST_TEST((pair.state == feeler::PairState::left_out));
     BOOST_TEST(!pair.has_plane());
     BOOST_TEST(!pair.keeps_ghost);
@@ -42,11 +42,11 @@ BOOST_AUTO_TEST_CASE(pieces_of_a_tool_have_pairs_of_their_own_with_the_same_tria
   BOOST_TEST(set.find(1, 7) == -1);
 }
 
-BOOST_AUTO_TEST_CASE(a_full_set_gives_up_the_triangle_that_has_been_idle_longest) {
+BOOST_AUTO_TEST_CASE(a_full_set_gives_up_the_triangle_that_has_been_unused_longest) {
   Set set;
   for (int i = 0; i < Set::capacity; ++i) {
     set.add(0, i, Corners::Zero());
-    set[i].idle_ticks = i == 17 ? 9 : i % 5;
+    set[i].unused_ticks = i == 17 ? 9 : i % 5;
   }
   set.add(0, 1000, Corners::Ones());
   BOOST_TEST(set.size() == int(Set::capacity));
@@ -56,37 +56,32 @@ BOOST_AUTO_TEST_CASE(a_full_set_gives_up_the_triangle_that_has_been_idle_longest
     if (i != 17) BOOST_TEST(set.find(0, i) >= 0);
 }
 
-BOOST_AUTO_TEST_CASE(idle_triangles_leave_after_the_longest_time_and_touching_ones_stay) {
+BOOST_AUTO_TEST_CASE(a_triangle_leaves_after_a_tick_in_which_it_was_neither_used_nor_touched) {
   Set set;
-  set.add(0, 1, Corners::Zero());  // touches
-  set.add(0, 2, Corners::Zero());  // near, idle
-  set.add(0, 3, Corners::Zero());  // far, idle
-  const auto slack = [&set] {
-    for (int i = 0; i < set.size(); ++i)
-      set[i].slack = set[i].triangle == 1 ? 1e-7 : set[i].triangle == 2 ? 1e-4 : 1e-1;
-  };
-  for (int tick = 1; tick <= 8; ++tick) {
-    slack();
-    set.age(4e-6, 1e-2, false);
+  set.add(0, 1, Corners::Zero()).slack = 1e-7;  // touches
+  set.add(0, 2, Corners::Zero()).slack = 1e-4;
+  set.add(0, 3, Corners::Zero()).slack = 1e-4;
+  set.age(4e-6, false);
+  BOOST_TEST(set.size() == 3);  // new in the tick that ends
+  for (int tick = 0; tick < 5; ++tick) {
+    set[set.find(0, 3)].note_use();
+    set.age(4e-6, false);
     BOOST_TEST(set.find(0, 1) >= 0);
-    BOOST_TEST(set.find(0, 2) >= 0);
-    BOOST_TEST((set.find(0, 3) >= 0) == (tick == 1));  // out of reach: one tick of grace
-    BOOST_TEST(set[set.find(0, 2)].idle_ticks == tick);
+    BOOST_TEST(set.find(0, 2) == -1);
+    BOOST_TEST(set.find(0, 3) >= 0);
   }
-  set.age(4e-6, 1e-2, false);
-  BOOST_TEST(set.find(0, 2) == -1);
+  set.age(4e-6, false);
+  BOOST_TEST(set.find(0, 3) == -1);
   BOOST_TEST(set.size() == 1);
 }
 
 BOOST_AUTO_TEST_CASE(a_touching_pair_that_repeats_others_leaves_like_one_that_does_not_touch) {
   Set set;
-  set.add(0, 1, Corners::Zero());
-  set.add(0, 2, Corners::Zero());
-  set[0].state = feeler::PairState::has_rows;
-  set[1].state = feeler::PairState::repeats;
-  for (int tick = 0; tick < 8; ++tick) set.age(4e-6, 1e-2, false);
+  set.add(0, 1, Corners::Zero()).state = feeler::PairState::has_rows;
+  set.add(0, 2, Corners::Zero()).state = feeler::PairState::repeats;
+  set.age(4e-6, false);
   BOOST_TEST(set.size() == 2);
-  set.age(4e-6, 1e-2, false);
+  set.age(4e-6, false);
   BOOST_TEST(set.size() == 1);
   BOOST_TEST(set[0].triangle == 1);
 }
@@ -95,9 +90,9 @@ BOOST_AUTO_TEST_CASE(a_ghost_that_was_kept_is_kept_on_only_as_long_as_asked) {
   Set set;
   set.add(0, 1, Corners::Zero());
   set[0].keeps_ghost = true;
-  set.age(1, 1, true);
+  set.age(1, true);
   BOOST_TEST(set[0].keeps_ghost);
-  set.age(1, 1, false);
+  set.age(1, false);
   BOOST_TEST(!set[0].keeps_ghost);
 }
 
@@ -106,10 +101,10 @@ BOOST_AUTO_TEST_CASE(what_touches_but_never_holds_leaves_in_the_end) {
   for (int triangle = 0; triangle < 2; ++triangle) set.add(0, triangle, Corners::Zero()).state = feeler::PairState::has_rows;
   for (int tick = 0; tick < Set::longest_unused; ++tick) {
     if (tick % 100 == 0) set[set.find(0, 1)].note_use();
-    set.age(4e-6, 1e-2, false);
+    set.age(4e-6, false);
     BOOST_TEST(set.size() == 2);
   }
-  set.age(4e-6, 1e-2, false);
+  set.age(4e-6, false);
   BOOST_TEST(set.find(0, 0) == -1);
   BOOST_TEST(set.find(0, 1) == 0);
 }

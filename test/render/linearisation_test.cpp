@@ -188,7 +188,10 @@ BOOST_AUTO_TEST_CASE(of_pairs_with_the_same_rows_one_has_them_and_when_it_leaves
   BOOST_TEST(room.lines.problem().row_count() == 4);
   BOOST_TEST(room.lines.start_carried(room.scene, Room::stand(1e-6), reach, room.tick));
   room.lines.pairs()[room.lines.pairs().find(0, 0)].slack = 1;
-  for (int tick = 0; tick < 2; ++tick) room.lines.pairs().age(4e-6, 1e-2, false);
+  for (int tick = 0; tick < 2; ++tick) {
+    for (const int used : {2, 3}) room.lines.pairs()[room.lines.pairs().find(0, used)].note_use();
+    room.lines.pairs().age(4e-6, false);
+  }
   BOOST_TEST(room.lines.pairs().find(0, 0) == -1);
   BOOST_TEST(!room.lines.start_carried(room.scene, Room::stand(1e-6), reach, room.tick));
   room.lines.start_measured(room.scene, Room::stand(), reach, room.tick);

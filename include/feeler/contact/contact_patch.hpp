@@ -75,7 +75,7 @@ class ContactPatch {
     near_.clear();
     measure_triangle();
     // Farther away one row is enough: a step that comes near is linearised again.
-    if (closest.distance <= band_ / 4) {
+    if (closest.distance <= band_ / 2) {
       measure_edges();
       gather_near_vertices(closest);
       add_vertices_on_face(rows);
@@ -262,7 +262,7 @@ class ContactPatch {
       const Scalar gap = on_surface(outward.dot(corner - tool_.vertex(loop[0])));
       if (std::abs(gap) > 2 * band_) continue;
       Scalar room = std::numeric_limits<Scalar>::infinity();
-      for (std::size_t i = 0; i < loop.size(); ++i) {
+      for (std::size_t i = 0; i < loop.size() && room >= -seam_; ++i) {
         const Vector start = tool_.vertex(loop[i]), edge = tool_.vertex(loop[(i + 1) % loop.size()]) - start;
         room = std::min(room, area_inside<Scalar>(start, edge, corner, outward) / edge.norm());
       }

@@ -26,7 +26,6 @@ struct WorkingPair {
   Vector3<Scalar> normal = Vector3<Scalar>::Zero();  ///< world normal that separates at the certified pose, or zero
   Scalar slack = Scalar(0);                          ///< separation there [m]
   Scalar moved = Scalar(0);                          ///< length of motions since that was measured [m]
-  int idle_ticks = 0;       ///< ticks since it held the tool, blocked a motion or touched
   int unused_ticks = 0;     ///< ticks since it held the tool or blocked a motion
   PairState state = PairState::left_out;
   bool is_ghost = false;    ///< at the certified pose a neighbour was nearer, and its plane means nothing
@@ -34,7 +33,7 @@ struct WorkingPair {
   bool keeps_ghost = false; ///< it blocked although its row looked like a ghost: give it a row all the same
 
   /// It holds the tool, or blocks a motion.
-  void note_use() noexcept { idle_ticks = unused_ticks = 0; }
+  void note_use() noexcept { unused_ticks = 0; }
   /// It has done neither for long: others may hold the tool in its place.
   bool is_spare() const noexcept { return unused_ticks > 100; }
   /// It had no rows of its own when it was last measured.
@@ -50,14 +49,14 @@ struct WorkingPair {
   bool is_beyond(Scalar distance) const noexcept { return slack - moved > distance; }
 };
 
-/// The working set: constraints enter when they block and leave when they have long been idle.
+/// The working set: constraints enter when they block, and leave after a tick in which they were of no use. Each is looked at wherever a motion
+/// starts or a step ends, which costs more than to meet a few of them again.
 template <class ScalarType, int pair_capacity = 48>
 class WorkingSet {
  public:
   using Scalar = ScalarType;
   using Pair = WorkingPair<Scalar>;
   static constexpr int capacity = pair_capacity;
-  static constexpr int longest_idle = 8;
   /// A shaft that fits touches its hole all around, and a few of those triangles hold it.
   static constexpr int longest_unused = 1000;
 
@@ -77,14 +76,14 @@ class WorkingSet {
     return -1;
   }
 
-  /// Adds a pair, in place of the longest idle one when full, and returns it.
+  /// Adds a pair, in place of the longest unused one when full, and returns it.
   Pair& add(int piece, int triangle, const Matrix3<Scalar>& corners_world) noexcept {
     if (pairs_.full()) {
-      int idlest = 0;
+      int longest = 0;
       for (int i = 1; i < pairs_.size(); ++i) {
-        if (pairs_[i].idle_ticks > pairs_[idlest].idle_ticks) idlest = i;
+        if (pairs_[i].unused_ticks > pairs_[longest].unused_ticks) longest = i;
       }
-      pairs_.swap_remove(idlest);
+      pairs_.swap_remove(longest);
     }
     Pair pair;
     pair.piece = piece;
@@ -99,15 +98,14 @@ class WorkingSet {
     for (Pair& pair : pairs_) pair.moved += length;
   }
 
-  /// Counts a tick, and drops what has been idle or unused for too long or lies more than `reach` away [m]; what lies closer than `touch`
-  /// is not idle, but for pairs that repeat others.
-  void age(Scalar touch, Scalar reach, bool goes_on) noexcept {
+  /// Counts a tick, and drops what was not used in it, nor lies closer than `touch` [m] and does more than repeat others; and what has been unused
+  /// for too long.
+  void age(Scalar touch, bool goes_on) noexcept {
     for (int i = pairs_.size() - 1; i >= 0; --i) {
       Pair& pair = pairs_[i];
-      pair.idle_ticks = pair.slack < touch && pair.state != PairState::repeats ? 1 : pair.idle_ticks + 1;
-      ++pair.unused_ticks;
       if (!goes_on) pair.keeps_ghost = false;
-      if (pair.idle_ticks > longest_idle || pair.unused_ticks > longest_unused || (pair.idle_ticks > 1 && pair.slack > reach)) pairs_.swap_remove(i);
+      const bool touches = pair.slack < touch && pair.state != PairState::repeats;
+      if (++pair.unused_ticks > (touches ? longest_unused : 1)) pairs_.swap_remove(i);
     }
   }
 

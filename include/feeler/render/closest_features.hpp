@@ -45,7 +45,7 @@ class ClosestFeaturesFollower {
     turn_idly(scene, tick);
     off_ = off_target(scene, pose_);
     const int idle_legs = tick.path.size();
-    linearisation_.pairs().age(linearisation_.touching(scene), 4 * scene.trust_radius(), goes_on_);
+    linearisation_.pairs().age(linearisation_.touching(scene), goes_on_);
     if (!goes_on_) limits_.reset(scene.trust_radius());
     budget_.begin_tick(scene.settings().work_budget);
     goes_on_ = !advance(scene, tick);

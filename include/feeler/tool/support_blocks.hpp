@@ -2,6 +2,7 @@
 // instructions.
 #pragma once
 
+#include <algorithm>
 #include <vector>
 
 #include <Eigen/Core>
@@ -10,7 +11,7 @@
 
 namespace feeler {
 
-/// Up to 256 points in blocks of eight: eight x, then eight y, then eight z. The last point fills up the last
+/// Up to 256 points, one by one and in blocks of eight: eight x, then eight y, then eight z. The last point fills up the last
 /// block.
 template <RealScalar Scalar>
 class SupportBlocks {
@@ -20,17 +21,15 @@ class SupportBlocks {
 
   SupportBlocks() = default;
   /// @param points  1 to `max_count` rows
-  explicit SupportBlocks(const Points<Scalar>& points) : count_(int(points.rows())) {
-    block_count_ = (count_ + block_size - 1) / block_size;
-    coordinates_.resize(std::size_t(block_count_) * 3 * block_size);
-    for (int i = 0; i < block_count_ * block_size; ++i)
-      for (int k = 0; k < 3; ++k) coordinates_[offset(i, k)] = points(i < count_ ? i : count_ - 1, k);
+  explicit SupportBlocks(const Points<Scalar>& points) : block_count_((int(points.rows()) + block_size - 1) / block_size) {
+    for (int i = 0; i < int(points.rows()); ++i) points_.push_back(points.row(i));
+    for (int i = 0; i < block_count_ * block_size; i += block_size)
+      for (int k = 0; k < 3; ++k)
+        for (int j = i; j < i + block_size; ++j) coordinates_.push_back(points_[std::size_t(std::min(j, count() - 1))][k]);
   }
 
-  int count() const noexcept { return count_; }
-  Vector3<Scalar> operator[](int i) const noexcept {
-    return {coordinates_[offset(i, 0)], coordinates_[offset(i, 1)], coordinates_[offset(i, 2)]};
-  }
+  int count() const noexcept { return int(points_.size()); }
+  const Vector3<Scalar>& operator[](int i) const noexcept { return points_[std::size_t(i)]; }
 
   /// Index of a point farthest along a direction; of equal ones, the first of its block. A direction with a
   /// NaN gives a valid index.
@@ -70,12 +69,8 @@ class SupportBlocks {
     const Scalar* data = coordinates_.data() + block * 3 * block_size;
     return BlockMap(data) * direction.x() + BlockMap(data + block_size) * direction.y() + BlockMap(data + 2 * block_size) * direction.z();
   }
-  static std::size_t offset(int i, int k) noexcept {
-    const auto index = unsigned(i);  // divides by a shift
-    return (index / block_size * 3 + unsigned(k)) * block_size + index % block_size;
-  }
 
-  int count_ = 0;
+  std::vector<Vector3<Scalar>> points_;
   int block_count_ = 0;
   std::vector<Scalar> coordinates_;
 };
