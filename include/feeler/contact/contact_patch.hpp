@@ -75,7 +75,7 @@ class ContactPatch {
     near_.clear();
     measure_triangle();
     // Farther away one row is enough: a step that comes near is linearised again.
-    if (closest.distance <= band_ / 2) {
+    if (closest.distance <= band_ / 4) {
       measure_edges();
       gather_near_vertices(closest);
       add_vertices_on_face(rows);
