@@ -2,6 +2,7 @@
 
 #include <boost/test/unit_test.hpp>
 
+#include <algorithm>
 #include <limits>
 #include <random>
 #include <string>
@@ -70,6 +71,7 @@ struct Tally {
   int blocked = 0, free = 0;
   WideReal deepest = 0;
   double certified = 0;
+  long work = 0, work_for_late = 0;
 };
 
 template <class Tool>
@@ -96,6 +98,19 @@ void check_passage(const Scene<Tool>& scene, bool is_exact, bool knows_normal, T
     const WideReal depth = scene.depth(passage.time, 150, allowance);
     tally.deepest = std::max(tally.deepest, depth);
     if (depth > allowance) BOOST_ERROR("certified up to " << passage.time << ", yet " << depth << " m deep");
+  }
+  if (!passage.is_blocked) return;
+  // That it does not block before a given time takes no more work to know than when it does.
+  const double resolution = is_exact ? clearance.resolution : std::max(clearance.resolution, moving.length() / 16);
+  for (const double enough : {passage.time / 2, passage.time, std::numeric_limits<double>::infinity()}) {
+    int less = 0;
+    const auto late = feeler::pass(moving, triangle, start, end, clearance, less, enough);
+    BOOST_TEST(late.is_blocked);
+    BOOST_TEST(less <= work);
+    BOOST_TEST(late.time <= passage.time);
+    BOOST_TEST(late.time * moving.length() >= std::min(enough, passage.time) * moving.length() - resolution / 4 * (1 + 1e-9));
+    tally.work += work;
+    tally.work_for_late += less;
   }
 }
 
@@ -154,7 +169,8 @@ void check_kind(unsigned seed, int count, Kind kind, const MakeTool& make_tool) 
   }
   BOOST_TEST_MESSAGE("kind " << int(kind) << ": " << tally.free << " free, " << tally.blocked << " blocked, "
                              << tally.certified / count << " certified on average, deepest "
-                             << tally.deepest);
+                             << tally.deepest << "; " << tally.work_for_late << " queries to know that it is late, "
+                             << tally.work << " to know the time");
   BOOST_TEST(tally.free > count / 50);
   // Along the face nothing is in the way of a tool that meets it; a sharp one at no distance rounding may stop.
   if (!feeler::SweptTool<decltype(make_tool(bits))> || kind != Kind::along_the_face) BOOST_TEST(tally.blocked > count / 50);

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "feeler/core/scalar.hpp"
 #include "feeler/proximity/clearance.hpp"
@@ -120,14 +121,16 @@ bool turning_plane_holds(const MovingTool<Tool>& moving, const Matrix3<typename 
 /// one separating normal to another. From the start the motion advances by such parts until the end, or until parts get shorter
 /// than the resolution; turning planes are looked for by bisection. A normal that is likely to separate at the
 /// end is tried before the triangle is measured there.
-/// @param work  grows by one for each distance query
+/// @param work    grows by one for each distance query
+/// @param enough  of a triangle that is in the way at the end it is enough to know that it does not block before this time
 /// @cost  0 queries for a plane that holds, 1 to 4 as a rule, at most 27
 template <ConvexTool Tool>
 [[gnu::flatten, gnu::noinline]]
 Passage<typename Tool::Scalar> pass(const MovingTool<Tool>& moving, const PassedTriangle<typename Tool::Scalar>& triangle,
                                     const MotionFrame<typename Tool::Scalar>& start,
                                     const MotionFrame<typename Tool::Scalar>& end,
-                                    const Clearance<typename Tool::Scalar>& clearance, int& work) noexcept {
+                                    const Clearance<typename Tool::Scalar>& clearance, int& work,
+                                    typename Tool::Scalar enough = std::numeric_limits<typename Tool::Scalar>::infinity()) noexcept {
   using Scalar = typename Tool::Scalar;
   using Plane = detail::HeldPlane<Scalar>;
   const Matrix3<Scalar>& corners = triangle.corners;
@@ -180,6 +183,7 @@ Passage<typename Tool::Scalar> pass(const MovingTool<Tool>& moving, const Passed
   MotionFrame<Scalar> frame = start;
   Scalar beyond = end.time;  // to where no turning plane is known to hold
   bool rolls = false;
+  const auto is_late = [&](Scalar time) { return last.slack < required && 4 * (enough - time) * moving.length() <= resolution; };
   for (int step = 0; step < maximum_steps; ++step) {
     const Scalar whole = end.time - frame.time;
     const bool is_found = is_known && step == 0;
@@ -204,7 +208,7 @@ Passage<typename Tool::Scalar> pass(const MovingTool<Tool>& moving, const Passed
     } else {
       const bool is_short = advance * moving.length() < resolution;
       frame = moving.frame_at(frame.time + advance);
-      if (is_short) break;
+      if (is_short || is_late(frame.time)) break;
       const Plane next = query(frame, true);
       // The plane gave out, yet the shapes are as far apart: it turns, and a fixed one would follow in tiny steps.
       rolls = triangle.is_exact && 2 * (next.slack - required) > plane.slack - required;

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <span>
 
 #include <Eigen/Core>
@@ -58,18 +59,19 @@ struct SweepResult {
   }
 };
 
-/// How far a motion that is blocked at a time should be looked at further: past its first blocker, to know the ones just behind it.
+/// How far a motion that is blocked at a time should be looked at further: past its first blocker, to know the ones just behind it, and those that are
+/// as early but for how exactly times are known.
 template <ConvexTool Tool>
 typename Tool::Scalar worth_certifying(typename Tool::Scalar blocked, const Clearance<typename Tool::Scalar>& clearance,
                                        const MovingTool<Tool>& moving) noexcept {
   using Scalar = typename Tool::Scalar;
-  return std::max(blocked, std::min(Scalar(1), clearance.probe / moving.length()));
+  return std::min(Scalar(1), std::max(blocked + Scalar(1) / 32, clearance.probe / moving.length()));
 }
 
 /// Certifies motions of a tool against a triangle mesh with one traversal of its bounding volume hierarchy.
 ///
 /// A box or a triangle passes if one cached plane holds over the whole motion (`PlaneCache`); a triangle that no plane passes is measured
-/// (`pass`), which gives a new plane or a blocker. After an early blocker the motion is shortened for the rest, though not to the
+/// (`pass`), which gives a new plane or a blocker. After a blocker the motion is shortened for the rest, though not to the
 /// blocker itself: the ones just behind it are better known at once. Where the work runs low it is shortened too, and the planes known pass
 /// most of what is left.
 /// @tparam Order  in which boxes and triangles are visited: `NearestFirst` or `InBatches`
@@ -226,7 +228,8 @@ class Sweep {
   void examine(int triangle, const PassedTriangle<Scalar>& state, const Clearance<Scalar>& clearance, const MovingTool<Tool>& moving,
                SweepResult<Scalar>& result, int& work) noexcept {
     if (continues_wall(state.corners, moving)) return;
-    const Passage<Scalar> passage = pass(moving, state, start_, end_, clearance, work);
+    const Scalar enough = result.time < end_.time ? result.time : std::numeric_limits<Scalar>::infinity();
+    const Passage<Scalar> passage = pass(moving, state, start_, end_, clearance, work, enough);
     if (!passage.is_blocked) {
       if (passage.normal.squaredNorm() > Scalar(0) && !state.is_exact) {
         add_plane(passage.normal, moving);
@@ -237,8 +240,8 @@ class Sweep {
     }
     result.add({triangle, passage.time, 0, passage.features});
     if (passage.time < result.time) result.time = passage.time;
-    const Scalar enough = worth_certifying(result.time, clearance_, moving);
-    if (2 * enough <= end_.time) set_end(moving, enough);
+    const Scalar end = worth_certifying(result.time, clearance_, moving);
+    if (end < end_.time) set_end(moving, end);
   }
 
   /// Whether a triangle lies in the plane of a known one that the tool touches without clearance, and slides along: beside it there is a way that

@@ -152,6 +152,7 @@ class ClosestFeaturesFollower {
         limits_.narrow(std::min(limits_.trust(), length) / 4);
         continue;
       }
+      const int proposed = tick.work;
       const auto result = certify(scene, proposal.motion, tick);
       if (result.is_exhausted) {
         takes_first_alone_ = is_first_alone;
@@ -172,7 +173,7 @@ class ClosestFeaturesFollower {
         }
         if (is_done) return true;
         if (result.is_whole()) {
-          limits_.widen();
+          limits_.widen(tick.work <= proposed + 2);
         } else if (result.blockers.empty()) {
           limits_.shorten(linearisation_.is_empty(), length * result.time);
         } else if (linearisation_.admit(scene, result)) {

@@ -65,8 +65,7 @@ class MotionCertificate {
           until = passed.time;
           continue;
         }
-        const Scalar enough = worth_certifying(result.time, scene.clearance(), moving);
-        if (2 * enough <= until) until = enough;
+        until = std::min(until, worth_certifying(result.time, scene.clearance(), moving));
       }
       return result;
     }

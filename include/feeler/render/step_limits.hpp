@@ -33,10 +33,11 @@ class StepLimits {
   /// Longest motion [m]; in flight nothing is near, and only the work of the certificate limits it.
   Scalar longest(bool is_in_flight) const noexcept { return is_in_flight ? flight_ : trust_; }
 
-  /// After a motion that nothing stopped. Long slides pass wide faces: after some such motions the trust region outgrows its radius.
-  void widen() noexcept {
+  /// After a motion that nothing stopped. Long slides pass wide faces: after some such motions, or one that passed by, the trust region outgrows its radius.
+  /// @param passes_by  it took next to no work to certify: little is near
+  void widen(bool passes_by) noexcept {
     const bool fills_radius = trust_ >= radius_;
-    if (fills_radius) ++unhindered_;
+    if (fills_radius) unhindered_ += passes_by ? long_slide : 1;
     trust_ = std::min(2 * trust_, fills_radius && is_long_slide() ? 8 * radius_ : std::max(trust_, radius_));
     flight_ *= 2;
   }
@@ -51,12 +52,14 @@ class StepLimits {
   void shorten(bool is_in_flight, Scalar length) noexcept { (is_in_flight ? flight_ : trust_) = length; }
 
  private:
-  bool is_long_slide() const noexcept { return unhindered_ > 3; }
+  static constexpr int long_slide = 4;  // motions
+
+  bool is_long_slide() const noexcept { return unhindered_ >= long_slide; }
 
   Scalar radius_ = Scalar(0);
   Scalar trust_ = Scalar(0);
   Scalar flight_ = Scalar(0);
-  int unhindered_ = 0;  // motions of the radius and more in a row that nothing stopped
+  int unhindered_ = 0;  // motions of the radius and more in a row that nothing stopped, or as much
 };
 
 }  // namespace feeler
