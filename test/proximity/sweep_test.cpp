@@ -290,6 +290,48 @@ BOOST_AUTO_TEST_CASE_TEMPLATE(a_known_triangle_is_examined_whether_or_not_the_tr
   BOOST_TEST(result.time * 0.5 >= 1e-3 - 1e-6);
 }
 
+namespace {
+/// Two triangles side by side, 1 mm below a box that falls by 2 mm, without turning.
+struct Fall {
+  Fall() { pose.translation = Vector(0, 0, 0.011); }
+  static TriangleMesh<double> floor() {
+    feeler::Points<double> vertices(6, 3);
+    vertices << -1, -1, 0, 1, -1, 0, 1, 1, 0, -1, -1, 0, 1, 1, 0, -1, 1, 0;
+    feeler::Triangles triangles(2, 3);
+    triangles << 0, 1, 2, 3, 4, 5;
+    return {vertices, triangles};
+  }
+  template <class Order>
+  feeler::SweepResult<double> certify(int& work, double first_blocked) const {
+    const feeler::MovingTool<Box> moving(box, Vector::Zero(), 0.02, pose, {Vector(0, 0, -2e-3), Vector::Zero()});
+    PlaneCache<double> planes;
+    return Sweep<Box, Order>(planes, {}).certify(mesh, moving, {}, work, 1000, 1.0, first_blocked);
+  }
+
+  TriangleMesh<double> mesh = floor();
+  Box box{Vector(0.01, 0.01, 0.01)};
+  feeler::Pose<double> pose;
+};
+}  // namespace
+
+BOOST_AUTO_TEST_CASE_TEMPLATE(what_blocks_as_early_as_the_first_blocker_is_named_too, Order, Orders) {
+  int work = 0;
+  const auto result = Fall().certify<Order>(work, std::numeric_limits<double>::infinity());
+  BOOST_TEST(result.blockers.size() == 2);
+  BOOST_TEST(result.time <= 0.5);
+  BOOST_TEST(result.time >= 0.5 - 1.0 / 16);
+}
+
+BOOST_AUTO_TEST_CASE_TEMPLATE(what_does_not_block_before_a_given_time_is_not_looked_for_exactly, Order, Orders) {
+  int work = 0, less = 0;
+  Fall().certify<Order>(work, std::numeric_limits<double>::infinity());
+  const auto result = Fall().certify<Order>(less, 0.25);
+  BOOST_TEST(result.blockers.size() == 2);
+  BOOST_TEST(result.time >= 0.25 - 1.0 / 64);
+  BOOST_TEST(result.time <= 0.5);
+  BOOST_TEST(less < work);
+}
+
 BOOST_AUTO_TEST_CASE_TEMPLATE(a_wall_without_clearance_goes_on_beyond_the_triangle_that_the_tool_touches, Order, Orders) {
   // A box slides down a wall at x = 0, from one quadrilateral of it to the next.
   feeler::Points<double> vertices(6, 3);

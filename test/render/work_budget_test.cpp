@@ -52,7 +52,7 @@ BOOST_AUTO_TEST_CASE(the_first_motion_of_a_tick_may_have_two_linearisations_and_
   BOOST_TEST(budget.limit_of_certificate(100) == 112);
 }
 
-BOOST_AUTO_TEST_CASE(a_tool_that_starves_gets_twice_as_much_from_the_third_tick_on_and_gives_it_back) {
+BOOST_AUTO_TEST_CASE(a_tool_that_starves_gets_half_as_much_again_from_the_third_tick_on_and_gives_it_back) {
   WorkBudget budget;
   const auto tick = [&](int work, bool has_moved) {
     budget.begin_tick(100);
@@ -63,14 +63,26 @@ BOOST_AUTO_TEST_CASE(a_tool_that_starves_gets_twice_as_much_from_the_third_tick_
   };
   BOOST_TEST(tick(100, false));
   BOOST_TEST(tick(100, false));
-  BOOST_TEST(!tick(100, true));  // of 200
-  BOOST_TEST(!tick(60, true));   // and now of 100 again
-  BOOST_TEST(tick(100, true));
+  BOOST_TEST(tick(101, false));  // of 150
+  BOOST_TEST(!tick(149, true));  // of 225
+  BOOST_TEST(!tick(70, true));   // and now of 150 again
+  BOOST_TEST(tick(101, true));
   for (int i = 0; i < 100; ++i) tick(100'000, false);
-  BOOST_TEST(!tick(1000, false));  // at most 16 times as much
-  BOOST_TEST(tick(1100, false));
+  BOOST_TEST(!tick(1130, false));  // at most 17 times as much
+  BOOST_TEST(tick(1150, false));
   budget.reset();
   BOOST_TEST(tick(100, true));
+}
+
+BOOST_AUTO_TEST_CASE(a_small_budget_grows_by_an_iteration_at_least) {
+  WorkBudget budget;
+  for (const int allowed : {10, 10, 30, 50, 75}) {
+    budget.begin_tick(10);
+    budget.begin_iteration(0);
+    BOOST_TEST(budget.allows_another(allowed - 1));
+    BOOST_TEST(!budget.allows_another(allowed));
+    budget.end_tick(allowed, false);
+  }
 }
 
 BOOST_AUTO_TEST_CASE(a_tick_takes_little_more_work_than_its_budget) {

@@ -91,13 +91,15 @@ class Sweep {
   /// @param work    grows by the work done
   /// @param limit   value of `work` at which the sweep gives up
   /// @param until   time up to which the motion is of interest: only [0, until] is certified
+  /// @param first_blocked  time at which something else blocks the motion: what does not before that is not looked for exactly
   template <class MeshScalar>
   SweepResult<Scalar> certify(const TriangleMesh<MeshScalar>& mesh, const MovingTool<Tool>& moving,
-                              std::span<const KnownTriangle<Scalar>> known, int& work, int limit,
-                              Scalar until = Scalar(1)) noexcept {
+                              std::span<const KnownTriangle<Scalar>> known, int& work, int limit, Scalar until = Scalar(1),
+                              Scalar first_blocked = std::numeric_limits<Scalar>::infinity()) noexcept {
     SweepResult<Scalar> result;
     result.time = until;
     known_ = known;
+    first_blocked_ = first_blocked;
     begin(mesh, moving, until);
     for (const KnownTriangle<Scalar>& pair : known) {
       if (passes(pair.state.corners, moving)) continue;
@@ -228,8 +230,7 @@ class Sweep {
   void examine(int triangle, const PassedTriangle<Scalar>& state, const Clearance<Scalar>& clearance, const MovingTool<Tool>& moving,
                SweepResult<Scalar>& result, int& work) noexcept {
     if (continues_wall(state.corners, moving)) return;
-    const Scalar enough = result.time < end_.time ? result.time : std::numeric_limits<Scalar>::infinity();
-    const Passage<Scalar> passage = pass(moving, state, start_, end_, clearance, work, enough);
+    const Passage<Scalar> passage = pass(moving, state, start_, end_, clearance, work, first_blocked_);
     if (!passage.is_blocked) {
       if (passage.normal.squaredNorm() > Scalar(0) && !state.is_exact) {
         add_plane(passage.normal, moving);
@@ -239,7 +240,8 @@ class Sweep {
       return;
     }
     result.add({triangle, passage.time, 0, passage.features});
-    if (passage.time < result.time) result.time = passage.time;
+    first_blocked_ = std::min(first_blocked_, passage.time);
+    result.time = std::min(result.time, passage.time);
     const Scalar end = worth_certifying(result.time, clearance_, moving);
     if (end < end_.time) set_end(moving, end);
   }
@@ -304,6 +306,7 @@ class Sweep {
   Clearance<Scalar> from_known_;
   Clearance<Scalar> clearance_;  // from all others
   std::span<const KnownTriangle<Scalar>> known_;
+  Scalar first_blocked_ = std::numeric_limits<Scalar>::infinity();  // time of the first blocker so far
   Frame start_;
   Frame end_;
   CoarsePlanes<Scalar, PlaneCache<Scalar>::capacity> coarse_;

@@ -42,17 +42,19 @@ class MotionCertificate {
     const Scalar turn = motion.angular.norm();
     Scalar until = turn > longest_turn ? longest_turn / turn : Scalar(1);
     if constexpr (!CompoundShape<ToolType>) {
-      return certify_piece(0, scene, scene.moving(0, from, motion), work, limit, pairs, far, until);
+      return certify_piece(0, scene, scene.moving(0, from, motion), work, limit, pairs, far, until, std::numeric_limits<Scalar>::infinity());
     } else {
       const auto is_near = find_near_pieces(scene, from, motion, work, limit);
       SweepResult<Scalar> result;
       result.time = until;
+      Scalar first_blocked = std::numeric_limits<Scalar>::infinity();
       for (int piece = 0; piece < scene.piece_count(); ++piece) {
         if (!is_near[std::size_t(piece)]) continue;
         const MovingTool<Piece> moving = scene.moving(piece, from, motion);
-        const auto passed = certify_piece(piece, scene, moving, work, limit, pairs, far, until);
+        const auto passed = certify_piece(piece, scene, moving, work, limit, pairs, far, until, first_blocked);
         for (Blocker<Scalar> blocker : passed.blockers) {
           blocker.piece = piece;
+          first_blocked = std::min(first_blocked, blocker.time);
           result.add(blocker);
         }
         if (passed.is_exhausted) {
@@ -117,10 +119,11 @@ class MotionCertificate {
     return is_clear;
   }
 
-  /// As `certify`, for one piece and the times up to `until`.
+  /// As `certify`, for one piece and the times up to `until`; of those before it one is blocked at `first_blocked`.
   template <int pair_capacity>
   SweepResult<Scalar> certify_piece(int piece, const Scene& scene, const MovingTool<Piece>& moving, int& work, int limit,
-                                    const WorkingSet<Scalar, pair_capacity>& pairs, Scalar far, Scalar until) noexcept {
+                                    const WorkingSet<Scalar, pair_capacity>& pairs, Scalar far, Scalar until,
+                                    Scalar first_blocked) noexcept {
     Clearance<Scalar> clearance = scene.clearance_for(moving);
     // A ball that slides in a fit comes as near to the next triangle of a wall as it is to this one. What to keep is safe to judge by the
     // nearest, because the core stays a radius away.
@@ -137,7 +140,7 @@ class MotionCertificate {
       known.push_back({pair.triangle, {pair.corners_world.colwise() - moving.origin(), pair.normal, pair.features, true, pair.last_normal}, pair.slack < clearance.none()});
     }
     return Sweep<Piece, Order>(planes_[std::size_t(piece)], clearance)
-        .certify(scene.object(), moving, {known.begin(), std::size_t(known.size())}, work, limit, until);
+        .certify(scene.object(), moving, {known.begin(), std::size_t(known.size())}, work, limit, until, first_blocked);
   }
 
   std::array<PlaneCache<Scalar>, std::size_t(maximum_pieces<ToolType>)> planes_;

@@ -8,15 +8,16 @@ namespace feeler {
 /// The work of a tick, in the unit of `Settings::work_budget`, against what it may take.
 ///
 /// A new iteration is begun where half as much work as the last one took is left, so that a tick ends about where its budget does; the second
-/// where any is left, as what the first one met is known by then. A fit all around a tool may take more to look at once than a tick has: where
-/// that keeps the tool from moving for some ticks, the budget doubles.
+/// where any is left, as what the first one met is known by then. A fit all around a tool may take more to look at once than a tick has: while
+/// that keeps the tool from moving, the budget grows by half from tick to tick.
 class WorkBudget {
  public:
   void reset() noexcept { starved_ = patience_ = 0; }
 
   /// @param budget  of every tick
   void begin_tick(int budget) noexcept {
-    allowed_ = budget << patience_;
+    allowed_ = budget;
+    for (int i = 0; i < patience_; ++i) allowed_ += std::max(allowed_ / 2, least_growth);
     begun_ = 0;
     iterations_ = 0;
   }
@@ -39,22 +40,24 @@ class WorkBudget {
   int limit_of_certificate(int work) const noexcept {
     return std::max(work + allowed_ / (is_first_iteration() ? 2 : 8), allowed_);
   }
-  /// Doubles the budget when it ran out before the tool moved, or before a second iteration, in some ticks in a row; halves it where half
+  /// Lets the budget grow when it ran out before the tool moved, or before a second iteration, in some ticks in a row; and shrink where less
   /// would do.
   void end_tick(int work, bool has_moved) noexcept {
-    constexpr int most_patience = 4, most_starved = 1;
+    constexpr int most_patience = 7, most_starved = 1;
     const bool is_starved = is_spent(work) && (!has_moved || iterations_ < 2);
     starved_ = is_starved ? starved_ + 1 : 0;
     if (starved_ > most_starved) patience_ = std::min(patience_ + 1, most_patience);
-    if (work < allowed_ / 3) patience_ = std::max(patience_ - 1, 0);
+    if (work < allowed_ / 2) patience_ = std::max(patience_ - 1, 0);
   }
 
  private:
+  static constexpr int least_growth = 20;  // about what an iteration takes
+
   int allowed_ = 0;     // in this tick
   int begun_ = 0;       // work when the iteration at hand began
   int iterations_ = 0;  // begun in this tick
   int starved_ = 0;     // ticks in a row
-  int patience_ = 0;    // doublings
+  int patience_ = 0;    // times that it grows
 };
 
 }  // namespace feeler
