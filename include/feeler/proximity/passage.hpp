@@ -121,9 +121,9 @@ bool turning_plane_holds(const MovingTool<Tool>& moving, const Matrix3<typename 
 /// one separating normal to another. From the start the motion advances by such parts until the end, or until parts get shorter
 /// than the resolution; turning planes are looked for by bisection. A normal that is likely to separate at the
 /// end is tried before the triangle is measured there.
-/// @param work    grows by one for each distance query, and for what it takes more where the tool touches
+/// @param work    grows by one for each distance query
 /// @param enough  of a triangle that is in the way at the end it is enough to know that it does not block before this time
-/// @cost  0 queries for a plane that holds, 1 to 4 as a rule, at most 27, each twice the work where the tool touches
+/// @cost  0 queries for a plane that holds, 1 to 4 as a rule, at most 27
 template <ConvexTool Tool>
 [[gnu::flatten, gnu::noinline]]
 Passage<typename Tool::Scalar> pass(const MovingTool<Tool>& moving, const PassedTriangle<typename Tool::Scalar>& triangle,
@@ -144,10 +144,7 @@ Passage<typename Tool::Scalar> pass(const MovingTool<Tool>& moving, const Passed
     if (closest.is_touching) {
       // The core of a swept tool touches nothing before the tool is in it by the radius.
       if (SweptTool<Tool> || !touches) return Plane{Vector3<Scalar>::Zero(), -std::numeric_limits<Scalar>::infinity()};
-      if constexpr (!SweptTool<Tool>) {
-        ++work;
-        closest = separation_of_touching(moving.tool(), in_tool, closest, clearance.allowance);
-      }
+      if constexpr (!SweptTool<Tool>) closest = separation_of_touching(moving.tool(), in_tool, closest, clearance.allowance);
     }
     return Plane{frame.rotation * closest.normal, closest.distance};
   };
