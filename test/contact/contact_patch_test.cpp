@@ -117,6 +117,28 @@ BOOST_AUTO_TEST_CASE(a_box_flat_on_a_triangle_has_its_four_bottom_vertices_on_it
   }
 }
 
+BOOST_AUTO_TEST_CASE(what_is_within_the_band_counts_and_of_a_pair_farther_than_half_of_it_only_the_closest) {
+  const Mesh mesh = floor();
+  const Vector half(0.03, 0.02, 0.01);
+  const Box box(half);
+  // Tilted about y: two bottom vertices lie at the distance given, and two higher by `rise`.
+  const auto rows_at = [&](double distance, double rise) {
+    const Eigen::Quaterniond tilt = turn(std::asin(rise / (2 * half.x())), Vector::UnitY());
+    const Eigen::Matrix3d axes = tilt.toRotationMatrix();
+    const double lowest = -axes.row(2).cwiseAbs().dot(half);
+    const Found found = find(box, mesh, 0, at({0.5, -0.5, distance - lowest}, tilt));
+    BOOST_TEST(found.has_rows);
+    BOOST_TEST(std::abs(found.distance - distance) < 1e-11);
+    return found.rows.size();
+  };
+  BOOST_TEST(rows_at(0.1 * band, 0.85 * band) == 4);
+  BOOST_TEST(rows_at(0.1 * band, 0.95 * band) == 2);  // the gaps of the other two are more than the band
+  BOOST_TEST(rows_at(0.45 * band, 0.5 * band) == 4);
+  BOOST_TEST(rows_at(0.45 * band, 0.6 * band) == 2);
+  BOOST_TEST(rows_at(0.49 * band, 0.0) == 4);
+  BOOST_TEST(rows_at(0.51 * band, 0.0) == 1);
+}
+
 BOOST_AUTO_TEST_CASE(arms_are_from_the_reference_point_and_normals_in_world_axes_wherever_the_scene_is) {
   constexpr unsigned seed = 1;
   BOOST_TEST_MESSAGE("seed " << seed);

@@ -51,7 +51,7 @@ class ContactPatch {
   /// @param incidence        `incidence_of(tool)`
   /// @param world_from_tool  axes of the tool; rows come out in world axes
   /// @param reference        reference point in the tool frame [m]
-  /// @param band             height above the separating plane up to which features count [m]
+  /// @param band             height above the separating plane, and gap, up to which features count [m]
   /// @param assumes_valleys  let the planes of valleys hold the tool before it is over them
   ContactPatch(const Tool& tool, const FeatureIncidence& incidence, const TriangleMesh<MeshScalar>& mesh,
                const Matrix3<Scalar>& world_from_tool, const Vector& reference, Scalar band, bool assumes_valleys) noexcept
@@ -75,7 +75,7 @@ class ContactPatch {
     near_.clear();
     measure_triangle();
     // Farther away one row is enough: a step that comes near is linearised again.
-    if (closest.distance <= band_ / 4) {
+    if (closest.distance <= band_ / 2) {
       measure_edges();
       gather_near_vertices(closest);
       add_vertices_on_face(rows);
@@ -189,7 +189,7 @@ class ContactPatch {
   void add_vertex_on_face(int near, FixedVector<Row, capacity>& rows) const noexcept {
     const Vector normal = side_ * face_normal_, vertex = tool_.vertex(near);
     const Scalar gap = on_surface(normal.dot(vertex - corners_.col(0)));
-    if (std::abs(gap) > 2 * band_) return;
+    if (std::abs(gap) > band_) return;
     Scalar room = std::numeric_limits<Scalar>::infinity();
     for (int k = 0; k < 3; ++k) {
       room = std::min(room, area_inside<Scalar>(corners_.col(k), edges_[index(k)], vertex, face_normal_) / edge_lengths_[index(k)]);
@@ -209,7 +209,7 @@ class ContactPatch {
   /// The triangle's own plane, where the lowest tool vertex is beside it, near, and every edge between them is a valley's.
   [[gnu::flatten, gnu::noinline]]
   void add_concave_face(const ClosestPoints<Scalar>& closest, Rows& rows) noexcept {
-    if (!has_face_ || rows.full() || closest.distance > 4 * band_) return;
+    if (!has_face_ || rows.full() || closest.distance > 8 * band_) return;
     for (const Scalar side : {Scalar(1), Scalar(-1)}) {
       const Vector normal = side * face_normal_;
       const Vector vertex = tool_.vertex(tool_.support(Vector(-normal)));
@@ -260,7 +260,7 @@ class ContactPatch {
     for (int k = 0; k < 3; ++k) {
       const Vector corner = corners_.col(k);
       const Scalar gap = on_surface(outward.dot(corner - tool_.vertex(loop[0])));
-      if (std::abs(gap) > 2 * band_) continue;
+      if (std::abs(gap) > band_) continue;
       Scalar room = std::numeric_limits<Scalar>::infinity();
       for (std::size_t i = 0; i < loop.size() && room >= -seam_; ++i) {
         const Vector start = tool_.vertex(loop[i]), edge = tool_.vertex(loop[(i + 1) % loop.size()]) - start;
@@ -316,7 +316,7 @@ class ContactPatch {
     if (!(along_object >= Scalar(0) && along_object <= object.length && part_of_tool >= Scalar(0) && part_of_tool <= Scalar(1))) return;
     const Vector normal = cross / (along_normal < Scalar(0) ? -std::sqrt(cross_squared) : std::sqrt(cross_squared));
     const Scalar gap = on_surface(normal.dot(between));
-    if (std::abs(gap) > 2 * band_ || !is_clear_of_neighbour_across(object.number, normal)) return;
+    if (std::abs(gap) > band_ || !is_clear_of_neighbour_across(object.number, normal)) return;
     const Scalar tool_length = std::sqrt(tool_squared);
     const Scalar room = std::min({along_object, object.length - along_object, part_of_tool * tool_length, (1 - part_of_tool) * tool_length});
     Row row = row_of(FeaturePair::edge_edge, normal, Vector(tool_start + part_of_tool * tool), gap, room);
@@ -342,7 +342,7 @@ class ContactPatch {
       const Vector between = on_tool - start - along * object;
       const Scalar height = normal_.dot(between);
       // Far apart across the normal they only look parallel: no contact there.
-      if (std::abs(on_surface(height)) > 2 * band_ || (between - height * normal_).norm() > std::abs(height) + seam_) continue;
+      if (std::abs(on_surface(height)) > band_ || (between - height * normal_).norm() > std::abs(height) + seam_) continue;
       if constexpr (SweptTool<Tool>) {
         const Scalar distance = between.norm();
         Row row = row_of(FeaturePair::vertex_face, Vector(between / distance), on_tool, on_surface(distance));

@@ -173,7 +173,7 @@ class ClosestFeaturesFollower {
         }
         if (is_done) return true;
         if (result.is_whole()) {
-          limits_.widen(tick.work <= proposed + 2);
+          limits_.widen(tick.work - proposed);
         } else if (result.blockers.empty()) {
           limits_.shorten(linearisation_.is_empty(), length * result.time);
         } else if (linearisation_.admit(scene, result)) {

@@ -322,7 +322,7 @@ class Linearisation {
     const Matrix3<Scalar> corners = scene.in_tool(pair.corners_world, pose_, axes_);
     const auto closest = query(scene, pair, corners, axes_, is_at_start_, tick);
     ContactPatch<Piece, MeshScalar> patch(scene.piece(pair.piece), scene.incidence(pair.piece), scene.object(), axes_, scene.reference(),
-                                          scene.trust_radius() / 8, assumes_valleys_);
+                                          scene.trust_radius() / 16, assumes_valleys_);
     pair.state = patch.find(pair.triangle, corners, closest, pair.keeps_ghost, patch_rows_) ? PairState::repeats : PairState::ghost;
     if (is_at_start_) pair.is_ghost = pair.state == PairState::ghost;
     if (pair.state == PairState::ghost && closest.distance < touching(scene)) {

@@ -33,11 +33,12 @@ class StepLimits {
   /// Longest motion [m]; in flight nothing is near, and only the work of the certificate limits it.
   Scalar longest(bool is_in_flight) const noexcept { return is_in_flight ? flight_ : trust_; }
 
-  /// After a motion that nothing stopped. Long slides pass wide faces: after some such motions, or one that passed by, the trust region outgrows its radius.
-  /// @param passes_by  it took next to no work to certify: little is near
-  void widen(bool passes_by) noexcept {
+  /// After a motion that nothing stopped. Long slides pass wide faces: after some such motions, or one with little near, the trust region
+  /// outgrows its radius.
+  /// @param work  that it took to certify, in the unit of `Settings::work_budget`
+  void widen(int work) noexcept {
     const bool fills_radius = trust_ >= radius_;
-    if (fills_radius) unhindered_ += passes_by ? long_slide : 1;
+    if (fills_radius) unhindered_ += work <= work_with_little_near ? long_slide : 1;
     trust_ = std::min(2 * trust_, fills_radius && is_long_slide() ? 8 * radius_ : std::max(trust_, radius_));
     flight_ *= 2;
   }
@@ -53,6 +54,7 @@ class StepLimits {
 
  private:
   static constexpr int long_slide = 4;  // motions
+  static constexpr int work_with_little_near = 2;
 
   bool is_long_slide() const noexcept { return unhindered_ >= long_slide; }
 
