@@ -26,7 +26,7 @@ using Mesh = TriangleMesh<double>;
 
 namespace {
 
-constexpr double band = 2.5e-4;
+constexpr double band = 2.5e-4, touching = 1e-6;
 
 Mesh mesh_of(std::initializer_list<Vector> points, std::initializer_list<std::array<int, 3>> rows) {
   feeler::Points<double> vertices(Eigen::Index(points.size()), 3);
@@ -56,6 +56,7 @@ struct Found {
   PatchRows<double> rows;
   double distance = 0;
   int nearer = -1;  // the triangle that the patch names
+  std::vector<int> continuations;  // those that it visits, of a plane nearer than `touching`
 
   int count(FeaturePair kind) const {
     int n = 0;
@@ -78,6 +79,7 @@ Found find(const Tool& tool, const Mesh& mesh, int triangle, const feeler::Pose<
   found.has_rows = patch.find(triangle, corners, closest, keep_ghost, found.rows);
   found.distance = closest.distance;
   found.nearer = patch.nearer_triangle(closest);
+  patch.visit_continuations(touching, [&](int continuation) { found.continuations.push_back(continuation); });
   return found;
 }
 
@@ -117,7 +119,7 @@ BOOST_AUTO_TEST_CASE(a_box_flat_on_a_triangle_has_its_four_bottom_vertices_on_it
   }
 }
 
-BOOST_AUTO_TEST_CASE(what_is_within_the_band_counts_and_of_a_pair_farther_than_half_of_it_only_the_closest) {
+BOOST_AUTO_TEST_CASE(features_meet_within_a_quarter_of_the_band_and_of_a_pair_farther_away_only_the_closest_do) {
   const Mesh mesh = floor();
   const Vector half(0.03, 0.02, 0.01);
   const Box box(half);
@@ -131,12 +133,21 @@ BOOST_AUTO_TEST_CASE(what_is_within_the_band_counts_and_of_a_pair_farther_than_h
     BOOST_TEST(std::abs(found.distance - distance) < 1e-11);
     return found.rows.size();
   };
-  BOOST_TEST(rows_at(0.1 * band, 0.85 * band) == 4);
-  BOOST_TEST(rows_at(0.1 * band, 0.95 * band) == 2);  // the gaps of the other two are more than the band
-  BOOST_TEST(rows_at(0.45 * band, 0.5 * band) == 4);
-  BOOST_TEST(rows_at(0.45 * band, 0.6 * band) == 2);
-  BOOST_TEST(rows_at(0.49 * band, 0.0) == 4);
-  BOOST_TEST(rows_at(0.51 * band, 0.0) == 1);
+  BOOST_TEST(rows_at(0.05 * band, 0.19 * band) == 4);
+  BOOST_TEST(rows_at(0.05 * band, 0.21 * band) == 2);  // the gaps of the other two are too wide
+  BOOST_TEST(rows_at(0.24 * band, 0.0) == 4);
+  BOOST_TEST(rows_at(0.26 * band, 0.0) == 1);
+}
+
+BOOST_AUTO_TEST_CASE(a_face_goes_on_where_a_vertex_touches_its_plane_beside_the_triangle) {
+  const Box box(Vector(0.03, 0.02, 0.01));
+  const auto continuations = [&](const Mesh& mesh, double x, double gap) { return find(box, mesh, 0, at({x, 0.0, 0.01 + gap})).continuations; };
+  const std::vector<int> none, both_left_vertices{1, 1};
+  BOOST_TEST((continuations(floor(), 0.0, 0.5e-6) == both_left_vertices));  // over the diagonal
+  BOOST_TEST((continuations(floor(), 0.5, 0.5e-6) == none));                // whole over the triangle
+  BOOST_TEST((continuations(floor(), 0.0, 1.5e-6) == none));                // too far
+  const Mesh bent = mesh_of({{-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, -1e-5}}, {{0, 1, 2}, {0, 2, 3}});
+  BOOST_TEST((continuations(bent, 0.0, 0.5e-6) == none));  // what is beside it is another face
 }
 
 BOOST_AUTO_TEST_CASE(arms_are_from_the_reference_point_and_normals_in_world_axes_wherever_the_scene_is) {

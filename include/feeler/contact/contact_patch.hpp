@@ -51,7 +51,7 @@ class ContactPatch {
   /// @param incidence        `incidence_of(tool)`
   /// @param world_from_tool  axes of the tool; rows come out in world axes
   /// @param reference        reference point in the tool frame [m]
-  /// @param band             height above the separating plane, and gap, up to which features count [m]
+  /// @param band             height above the separating plane up to which features count, where their gap is at most a quarter of it [m]
   /// @param assumes_valleys  let the planes of valleys hold the tool before it is over them
   ContactPatch(const Tool& tool, const FeatureIncidence& incidence, const TriangleMesh<MeshScalar>& mesh,
                const Matrix3<Scalar>& world_from_tool, const Vector& reference, Scalar band, bool assumes_valleys) noexcept
@@ -61,6 +61,7 @@ class ContactPatch {
         world_from_tool_(world_from_tool),
         reference_(reference),
         band_(band),
+        largest_gap_(band / 4),
         seam_(band / 100000),
         assumes_valleys_(assumes_valleys) {}
 
@@ -75,7 +76,7 @@ class ContactPatch {
     near_.clear();
     measure_triangle();
     // Farther away one row is enough: a step that comes near is linearised again.
-    if (closest.distance <= band_ / 2) {
+    if (closest.distance <= largest_gap_) {
       measure_edges();
       gather_near_vertices(closest);
       add_vertices_on_face(rows);
@@ -97,6 +98,22 @@ class ContactPatch {
       rows.push_back(closest.is_touching ? row_of_touching(closest) : row_of(FeaturePair::vertex_face, normal_, closest.tool_point, closest.distance));
     }
     return true;
+  }
+
+  /// After `find`: calls `visit(triangle)` for those beside this one that continue its plane to where a tool vertex touches it, no farther from it
+  /// than `touching` [m]: they hold that vertex.
+  template <class Visit>
+  void visit_continuations(Scalar touching, const Visit& visit) const noexcept {
+    if (!has_face_) return;
+    for (const int near : near_) {
+      const Vector vertex = tool_.vertex(near);
+      if (std::abs(on_surface(side_ * face_normal_.dot(vertex - corners_.col(0)))) > touching) continue;
+      for (int k = 0; k < 3; ++k) {
+        if (area_inside<Scalar>(corners_.col(k), edges_[index(k)], vertex, face_normal_) >= -seam_ * edge_lengths_[index(k)]) continue;
+        const int neighbour = mesh_.topology().neighbour(triangle_, k);
+        if (neighbour >= 0 && is_in_plane(neighbour)) visit(neighbour);
+      }
+    }
   }
 
   /// After `find`, of a triangle whose closest points are a ghost: a neighbour that is nearer to the tool, or -1.
@@ -189,7 +206,7 @@ class ContactPatch {
   void add_vertex_on_face(int near, FixedVector<Row, capacity>& rows) const noexcept {
     const Vector normal = side_ * face_normal_, vertex = tool_.vertex(near);
     const Scalar gap = on_surface(normal.dot(vertex - corners_.col(0)));
-    if (std::abs(gap) > band_) return;
+    if (std::abs(gap) > largest_gap_) return;
     Scalar room = std::numeric_limits<Scalar>::infinity();
     for (int k = 0; k < 3; ++k) {
       room = std::min(room, area_inside<Scalar>(corners_.col(k), edges_[index(k)], vertex, face_normal_) / edge_lengths_[index(k)]);
@@ -209,7 +226,7 @@ class ContactPatch {
   /// The triangle's own plane, where the lowest tool vertex is beside it, near, and every edge between them is a valley's.
   [[gnu::flatten, gnu::noinline]]
   void add_concave_face(const ClosestPoints<Scalar>& closest, Rows& rows) noexcept {
-    if (!has_face_ || rows.full() || closest.distance > 8 * band_) return;
+    if (!has_face_ || rows.full() || closest.distance > 4 * band_) return;
     for (const Scalar side : {Scalar(1), Scalar(-1)}) {
       const Vector normal = side * face_normal_;
       const Vector vertex = tool_.vertex(tool_.support(Vector(-normal)));
@@ -242,6 +259,17 @@ class ContactPatch {
     return true;
   }
 
+  /// Whether a triangle lies in the plane of this one.
+  bool is_in_plane(int other) const noexcept {
+    const Vector normal_world = world_from_tool_ * face_normal_;
+    const Vector start_world = mesh_.vertex(mesh_.triangle(triangle_)[0]).template cast<Scalar>();
+    const auto& corners = mesh_.triangle(other);
+    return std::all_of(corners.begin(), corners.end(), [&](int corner) {
+      const Vector along = mesh_.vertex(corner).template cast<Scalar>() - start_world;
+      return std::abs(normal_world.dot(along)) <= cone_tolerance * along.norm();
+    });
+  }
+
   void add_corners_on_faces(Rows& rows) noexcept {
     for (const int vertex : near_) {
       for (const int f : incidence_.vertex_faces(vertex)) {
@@ -260,7 +288,7 @@ class ContactPatch {
     for (int k = 0; k < 3; ++k) {
       const Vector corner = corners_.col(k);
       const Scalar gap = on_surface(outward.dot(corner - tool_.vertex(loop[0])));
-      if (std::abs(gap) > band_) continue;
+      if (std::abs(gap) > largest_gap_) continue;
       Scalar room = std::numeric_limits<Scalar>::infinity();
       for (std::size_t i = 0; i < loop.size() && room >= -seam_; ++i) {
         const Vector start = tool_.vertex(loop[i]), edge = tool_.vertex(loop[(i + 1) % loop.size()]) - start;
@@ -316,7 +344,7 @@ class ContactPatch {
     if (!(along_object >= Scalar(0) && along_object <= object.length && part_of_tool >= Scalar(0) && part_of_tool <= Scalar(1))) return;
     const Vector normal = cross / (along_normal < Scalar(0) ? -std::sqrt(cross_squared) : std::sqrt(cross_squared));
     const Scalar gap = on_surface(normal.dot(between));
-    if (std::abs(gap) > band_ || !is_clear_of_neighbour_across(object.number, normal)) return;
+    if (std::abs(gap) > largest_gap_ || !is_clear_of_neighbour_across(object.number, normal)) return;
     const Scalar tool_length = std::sqrt(tool_squared);
     const Scalar room = std::min({along_object, object.length - along_object, part_of_tool * tool_length, (1 - part_of_tool) * tool_length});
     Row row = row_of(FeaturePair::edge_edge, normal, Vector(tool_start + part_of_tool * tool), gap, room);
@@ -342,7 +370,7 @@ class ContactPatch {
       const Vector between = on_tool - start - along * object;
       const Scalar height = normal_.dot(between);
       // Far apart across the normal they only look parallel: no contact there.
-      if (std::abs(on_surface(height)) > band_ || (between - height * normal_).norm() > std::abs(height) + seam_) continue;
+      if (std::abs(on_surface(height)) > largest_gap_ || (between - height * normal_).norm() > std::abs(height) + seam_) continue;
       if constexpr (SweptTool<Tool>) {
         const Scalar distance = between.norm();
         Row row = row_of(FeaturePair::vertex_face, Vector(between / distance), on_tool, on_surface(distance));
@@ -473,6 +501,7 @@ class ContactPatch {
   Matrix3<Scalar> world_from_tool_;
   Vector reference_;
   Scalar band_;
+  Scalar largest_gap_;  // of a row of features that meet
   Scalar seam_;  // a point so little beside a face counts as over it, or rounding would let it through between two faces [m]
   bool assumes_valleys_;
 

@@ -322,12 +322,18 @@ class Linearisation {
     const Matrix3<Scalar> corners = scene.in_tool(pair.corners_world, pose_, axes_);
     const auto closest = query(scene, pair, corners, axes_, is_at_start_, tick);
     ContactPatch<Piece, MeshScalar> patch(scene.piece(pair.piece), scene.incidence(pair.piece), scene.object(), axes_, scene.reference(),
-                                          scene.trust_radius() / 16, assumes_valleys_);
+                                          scene.trust_radius() / 8, assumes_valleys_);
     pair.state = patch.find(pair.triangle, corners, closest, pair.keeps_ghost, patch_rows_) ? PairState::repeats : PairState::ghost;
     if (is_at_start_) pair.is_ghost = pair.state == PairState::ghost;
     if (pair.state == PairState::ghost && closest.distance < touching(scene)) {
       const int nearer = patch.nearer_triangle(closest);
       if (nearer >= 0 && pairs_.find(pair.piece, nearer) < 0) nearer_.push_back({pair.piece, nearer, pair.features});
+    }
+    const Scalar too_near = scene.margin() - scene.margin() / 1000;
+    if (scene.piece_count() == 1 && closest.distance < too_near) {
+      patch.visit_continuations(too_near, [&](int triangle) {
+        if (pairs_.find(pair.piece, triangle) < 0) nearer_.push_back({pair.piece, triangle, {}});
+      });
     }
     for (Row& row : patch_rows_) {
       row.piece = pair.piece;
@@ -342,8 +348,9 @@ class Linearisation {
     }
   }
 
-  /// Takes in, and measures, the neighbours of ghosts that are to hold the tool in their place. They never blocked a motion: it may come closer
-  /// than the margin. So the tool would, and turn back where the ghost is none any more.
+  /// Takes in, and measures, the neighbours of ghosts that are to hold the tool in their place, and those that continue a face that touches. They
+  /// never blocked a motion: it may come closer than the margin. So the tool would, and turn back where the ghost is none any more, or rest on an
+  /// edge of a tool that is all but flat on the face.
   void measure_nearer(const Scene& scene, Tick<MeshScalar>& tick) noexcept {
     for (int i = 0; i < nearer_.size() && !pairs_.full(); ++i) {  // one of them may be a ghost, and add another
       const Nearer nearer = nearer_[i];
