@@ -26,7 +26,7 @@ using Mesh = TriangleMesh<double>;
 
 namespace {
 
-constexpr double band = 2.5e-4, touching = 1e-6;
+constexpr double band = 2.5e-4, in_touch = 1e-6;
 
 Mesh mesh_of(std::initializer_list<Vector> points, std::initializer_list<std::array<int, 3>> rows) {
   feeler::Points<double> vertices(Eigen::Index(points.size()), 3);
@@ -56,7 +56,7 @@ struct Found {
   PatchRows<double> rows;
   double distance = 0;
   int nearer = -1;  // the triangle that the patch names
-  std::vector<int> continuations;  // those that it visits, of a plane nearer than `touching`
+  std::vector<int> continuations;  // those that it visits, of a plane nearer than `in_touch`
 
   int count(FeaturePair kind) const {
     int n = 0;
@@ -79,7 +79,7 @@ Found find(const Tool& tool, const Mesh& mesh, int triangle, const feeler::Pose<
   found.has_rows = patch.find(triangle, corners, closest, keep_ghost, found.rows);
   found.distance = closest.distance;
   found.nearer = patch.nearer_triangle(closest);
-  patch.visit_continuations(touching, [&](int continuation) { found.continuations.push_back(continuation); });
+  patch.visit_continuations(in_touch, [&](int continuation) { found.continuations.push_back(continuation); });
   return found;
 }
 
