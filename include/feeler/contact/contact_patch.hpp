@@ -100,16 +100,16 @@ class ContactPatch {
     return true;
   }
 
-  /// After `find`: calls `visit(triangle)` for those beside this one that continue its plane to where a tool vertex touches it, no farther from it
-  /// than `touching` [m]: they hold that vertex.
+  /// After `find`: calls `visit(triangle)` for each triangle that continues the plane of this one, beside it, to a tool vertex no farther from that
+  /// plane than `gap` [m]: it holds that vertex. Some are visited more than once.
   template <class Visit>
-  void visit_continuations(Scalar touching, const Visit& visit) const noexcept {
+  void visit_continuations(Scalar gap, const Visit& visit) const noexcept {
     if (!has_face_) return;
     for (const int near : near_) {
       const Vector vertex = tool_.vertex(near);
-      if (std::abs(on_surface(side_ * face_normal_.dot(vertex - corners_.col(0)))) > touching) continue;
+      if (std::abs(gap_above_face(vertex)) > gap) continue;
       for (int k = 0; k < 3; ++k) {
-        if (area_inside<Scalar>(corners_.col(k), edges_[index(k)], vertex, face_normal_) >= -seam_ * edge_lengths_[index(k)]) continue;
+        if (room_inside(k, vertex) >= -seam_) continue;
         const int neighbour = mesh_.topology().neighbour(triangle_, k);
         if (neighbour >= 0 && is_in_plane(neighbour)) visit(neighbour);
       }
@@ -204,15 +204,21 @@ class ContactPatch {
   }
   template <int capacity>
   void add_vertex_on_face(int near, FixedVector<Row, capacity>& rows) const noexcept {
-    const Vector normal = side_ * face_normal_, vertex = tool_.vertex(near);
-    const Scalar gap = on_surface(normal.dot(vertex - corners_.col(0)));
+    const Vector vertex = tool_.vertex(near);
+    const Scalar gap = gap_above_face(vertex);
     if (std::abs(gap) > largest_gap_) return;
     Scalar room = std::numeric_limits<Scalar>::infinity();
     for (int k = 0; k < 3; ++k) {
-      room = std::min(room, area_inside<Scalar>(corners_.col(k), edges_[index(k)], vertex, face_normal_) / edge_lengths_[index(k)]);
+      room = std::min(room, room_inside(k, vertex));
       if (!(room >= -seam_)) return;
     }
-    rows.push_back(row_of(FeaturePair::vertex_face, normal, vertex, gap, room));
+    rows.push_back(row_of(FeaturePair::vertex_face, Vector(side_ * face_normal_), vertex, gap, room));
+  }
+  /// Gap of a tool vertex above the triangle's plane, on the side of the tool [m].
+  Scalar gap_above_face(const Vector& vertex) const noexcept { return on_surface(side_ * face_normal_.dot(vertex - corners_.col(0))); }
+  /// How far inside an edge of the triangle a point is, seen along its normal [m].
+  Scalar room_inside(int edge, const Vector& point) const noexcept {
+    return area_inside<Scalar>(corners_.col(edge), edges_[index(edge)], point, face_normal_) / edge_lengths_[index(edge)];
   }
 
   /// Of many vertices, as of a round end, those that hold it up.
@@ -501,7 +507,7 @@ class ContactPatch {
   Matrix3<Scalar> world_from_tool_;
   Vector reference_;
   Scalar band_;
-  Scalar largest_gap_;  // of a row of features that meet
+  Scalar largest_gap_;  // of a row of features that meet [m]
   Scalar seam_;  // a point so little beside a face counts as over it, or rounding would let it through between two faces [m]
   bool assumes_valleys_;
 

@@ -325,15 +325,17 @@ class Linearisation {
                                           scene.trust_radius() / 8, assumes_valleys_);
     pair.state = patch.find(pair.triangle, corners, closest, pair.keeps_ghost, patch_rows_) ? PairState::repeats : PairState::ghost;
     if (is_at_start_) pair.is_ghost = pair.state == PairState::ghost;
+    const auto bring = [&](int triangle, const WitnessFeatures& features) {
+      if (pairs_.find(pair.piece, triangle) < 0) nearer_.push_back({pair.piece, triangle, features});
+    };
     if (pair.state == PairState::ghost && closest.distance < touching(scene)) {
       const int nearer = patch.nearer_triangle(closest);
-      if (nearer >= 0 && pairs_.find(pair.piece, nearer) < 0) nearer_.push_back({pair.piece, nearer, pair.features});
+      if (nearer >= 0) bring(nearer, pair.features);
     }
-    const Scalar too_near = scene.margin() - scene.margin() / 1000;
+    // Several pieces have many such neighbours at once, and leave them to the certificate.
+    const Scalar too_near = scene.margin() - scene.margin() / 1000;  // what rests at the margin is not
     if (scene.piece_count() == 1 && closest.distance < too_near) {
-      patch.visit_continuations(too_near, [&](int triangle) {
-        if (pairs_.find(pair.piece, triangle) < 0) nearer_.push_back({pair.piece, triangle, {}});
-      });
+      patch.visit_continuations(too_near, [&](int triangle) { bring(triangle, {}); });
     }
     for (Row& row : patch_rows_) {
       row.piece = pair.piece;
@@ -427,10 +429,10 @@ class Linearisation {
     return pair;
   }
 
-  /// A neighbour of a ghost that is nearer.
+  /// A neighbour of a pair's triangle, that is to hold the tool in its place or beside it.
   struct Nearer {
     int piece, triangle;
-    WitnessFeatures features;  // of the ghost
+    WitnessFeatures features;  // to start its first query from
   };
 
   Pairs pairs_;
