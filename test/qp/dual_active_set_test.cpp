@@ -101,6 +101,23 @@ BOOST_AUTO_TEST_CASE(a_slot_that_is_too_narrow_is_infeasible_and_the_conflict_na
   BOOST_TEST(solution.conflict[0] + solution.conflict[1] == 3);
 }
 
+BOOST_AUTO_TEST_CASE(a_slot_of_walls_that_are_parallel_but_for_a_hair_is_infeasible_without_a_second_start) {
+  // The edge where the walls meet is a hundred metres away at least, the target a millimetre.
+  for (const double angle : {0.0, 1e-13, 1e-11, 4e-10, 1e-8}) {
+    Problem problem = towards(six(0, 0, 1e-3));
+    const Vector arm(0, 0.1, 0);
+    problem.add_row(contact_row<double>(Vector(std::sin(angle), 0, std::cos(angle)), arm), 1e-6);
+    problem.add_row(contact_row<double>(Vector(0, 0, -1), arm), 1e-6);
+    for (int k = 0; k < 20; ++k) problem.add_row(contact_row<double>(Vector(std::cos(k), std::sin(k), 0), arm), -1);
+    DualActiveSet<double> solver;
+    Solution solution;
+    BOOST_TEST_INFO("angle " << angle);
+    BOOST_TEST((solver.solve(problem, solution) == QpStatus::infeasible));
+    BOOST_TEST(solution.conflict.size() == 2);
+    BOOST_TEST(solution.iterations == 2);  // one wall, then the other
+  }
+}
+
 BOOST_AUTO_TEST_CASE(a_problem_with_a_row_of_no_numbers_is_never_called_solved) {
   constexpr double infinity = std::numeric_limits<double>::infinity(), nothing = std::numeric_limits<double>::quiet_NaN();
   DualActiveSet<double> solver;

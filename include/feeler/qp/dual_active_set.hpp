@@ -235,9 +235,14 @@ class DualActiveSet {
                     const Scalar& slope) const noexcept {
     if (operators_.used() == Operators::slot_count) return true;
     if (!(slope > dependent_angle_ * dependent_angle_ * whole)) return true;
-    const Scalar clear = Scalar(1e-12), far = Scalar(1e6);
+    const Scalar clear = Scalar(1e-12);
     if (!is_careful_ || slope > clear * whole) return false;
-    return violation / slope * detail::largest_of(operators_.image().step) > far * (detail::largest_of(x_) + violation / detail::size_of(a));
+    return violation / slope * detail::largest_of(operators_.image().step) > far_away(a, violation);
+  }
+
+  /// A length that no step to a row that lacks `violation` has, in all reason.
+  Scalar far_away(const Six& a, const Scalar& violation) const noexcept {
+    return Scalar(1e6) * (detail::largest_of(x_) + violation / detail::size_of(a));
   }
 
   /// a·H⁻¹·a, to all digits.
@@ -394,32 +399,38 @@ class DualActiveSet {
   /// No step meets row p, as it is a sum of active ones with negative shares: then these rows contradict each
   /// other.
   ///
-  /// That is in doubt where the sum leaves a rest, or where all of them together agree within their
+  /// That is in doubt where the sum leaves a rest that a step could use, or where all of them together agree within their
   /// tolerances.
   Entry conclude_conflict(int p, const Six& a, Scalar violation, Solution& solution) noexcept {
-    const Scalar rounding = detail::rounding_at(x_);
-    const auto allowed = [&](const Six& row) { return tolerance + detail::product(rounding, detail::size_of(row)); };
-    Six rest = a;
-    Scalar slack = allowed(a);
-    for (int i = 0; i < operators_.used(); ++i) {
-      const Six& normal = operators_.normal(i);
-      const Scalar& share = operators_.image().share[index(i)];
-      slack -= detail::product(share, allowed(normal));
-      const Scalar drift = bounds_[slots_[index(i)]] - detail::dot(normal, x_);  // of x off this row
-      violation -= detail::product(share, drift);
-      detail::subtract(normal, share, rest);
-    }
     const Scalar allowed_rest =
         std::max(Scalar(1e-12), Scalar(64 * std::numeric_limits<Scalar>::epsilon())) * detail::size_of(a);
-    const bool is_sum = !(detail::size_of(rest) > allowed_rest);
-    // A step some times as long as this one could use the rest.
-    const Scalar within_reach = 16 * detail::size_of(rest) * detail::largest_of(x_);
-    const bool is_certain =
-        is_careful_ ? violation > within_reach : is_sum && violation > slack + within_reach;
-    if (!is_certain) return Entry::in_doubt;
+    Six shares{}, rest = a;
+    bool is_sum = false;
+    for (int round = 0; round < 2 && !is_sum; ++round) {  // what rounding left of it is in the span as well
+      if (round > 0) operators_.apply(rest);
+      rest = a;
+      for (int i = 0; i < operators_.used(); ++i) {
+        Scalar& share = shares[index(i)];
+        share = std::min(Scalar(share + operators_.image().share[index(i)]), Scalar(0));
+        detail::subtract(operators_.normal(i), share, rest);
+      }
+      is_sum = !(detail::size_of(rest) > allowed_rest);
+    }
+    const Scalar rounding = detail::rounding_at(x_);
+    const auto allowed = [&](const Six& row) { return tolerance + detail::product(rounding, detail::size_of(row)); };
+    Scalar slack = is_careful_ ? Scalar(0) : allowed(a);
+    for (int i = 0; i < operators_.used(); ++i) {
+      const Six& normal = operators_.normal(i);
+      if (!is_careful_) slack -= detail::product(shares[index(i)], allowed(normal));
+      const Scalar drift = bounds_[slots_[index(i)]] - detail::dot(normal, x_);  // of x off this row
+      violation -= detail::product(shares[index(i)], drift);
+    }
+    // A step some times as long as this one could use the rest; where that is more than rounding leaves, a far longer one.
+    const Scalar reach = is_sum || is_careful_ ? Scalar(16 * detail::largest_of(x_)) : far_away(a, violation);
+    if (!(violation > slack + detail::size_of(rest) * reach)) return Entry::in_doubt;
     solution.conflict.push_back(p);
     for (int i = 0; i < operators_.used(); ++i) {
-      if (operators_.image().share[index(i)] < -Scalar(1e-9)) solution.conflict.push_back(slots_[index(i)]);
+      if (shares[index(i)] < -Scalar(1e-9)) solution.conflict.push_back(slots_[index(i)]);
     }
     return Entry::infeasible;
   }
