@@ -253,8 +253,9 @@ class Sweep {
     for (const KnownTriangle<Scalar>& wall : known_) {
       if (!wall.is_tight) continue;
       PlaneOnMotion<Scalar> plane{wall.state.normal};
+      const Scalar height = detail::highest(corners, plane.normal);  // of most, not that of the wall
+      if (!(std::abs(height - detail::highest(wall.state.corners, plane.normal)) < 2 * clearance_.none())) continue;
       plane.begin(moving, start_);
-      const Scalar height = detail::highest(corners, plane.normal);
       if (!(std::abs(plane.start - height) < clearance_.none())) continue;
       plane.end(moving, end_);
       if (!plane.parts_closely(height, clearance_)) continue;
@@ -287,19 +288,26 @@ class Sweep {
 
   [[gnu::flatten, gnu::noinline]]
   bool passes(const Matrix3<Scalar>& corners, const MovingTool<Tool>& moving) noexcept {
+    if (last_ < planes_.size() && passes(corners, last_)) return true;
     const int turning = planes_.with_tool().parting(corners);
     if (turning >= 0) {
       if (planes_.with_tool().lend(turning)) add_plane(planes_.with_tool().normal_at_end(turning), moving);
       return true;
     }
     for (int i = 0; i < planes_.size(); ++i) {
-      const Scalar height = detail::highest(corners, planes_.normal(i));
-      if (height <= planes_.limit(i) || planes_.parts_closely(i, height, clearance_)) {
-        planes_.count_hits(i, 1);
-        return true;
-      }
+      if (i == last_ || !passes(corners, i)) continue;
+      last_ = i;
+      return true;
     }
     return false;
+  }
+
+  /// Whether one plane passes a triangle.
+  bool passes(const Matrix3<Scalar>& corners, int i) noexcept {
+    const Scalar height = detail::highest(corners, planes_.normal(i));
+    if (!(height <= planes_.limit(i) || planes_.parts_closely(i, height, clearance_))) return false;
+    planes_.count_hits(i, 1);
+    return true;
   }
 
   PlaneCache<Scalar>& planes_;
@@ -309,6 +317,7 @@ class Sweep {
   Scalar first_blocked_ = std::numeric_limits<Scalar>::infinity();  // time of the first blocker so far
   Frame start_;
   Frame end_;
+  int last_ = 0;  // of the planes to pass a triangle: its neighbours come next
   CoarsePlanes<Scalar, PlaneCache<Scalar>::capacity> coarse_;
 };
 
