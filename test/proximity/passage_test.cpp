@@ -414,6 +414,7 @@ BOOST_AUTO_TEST_CASE(
       last = required;
     }
     BOOST_TEST(clearance.required(1) == clearance.kept);
+    BOOST_TEST(clearance.required(2 * clearance.allowance) == -clearance.allowance);  // what rounding leaves in a perfect fit is not halved
   }
 }
 

@@ -5,6 +5,7 @@
 
 #include <cmath>
 
+#include "feeler/proximity/clearance.hpp"
 #include "feeler/qp/dual_active_set.hpp"
 
 BOOST_AUTO_TEST_SUITE(step_problem)
@@ -66,6 +67,27 @@ BOOST_AUTO_TEST_CASE(where_the_tool_is_about_to_slip_off_the_step_is_finite_and_
       BOOST_TEST(step.allFinite());
       BOOST_TEST(step[0] >= hand.x());
       BOOST_TEST(std::abs(step[2]) < 1e-12);
+    }
+  }
+}
+
+BOOST_AUTO_TEST_CASE(between_two_walls_a_step_leaves_what_its_certificate_requires_however_little_there_is) {
+  // As far from the wall below as from that above, with less than two margins between them; the hand is far below.
+  constexpr double margin = 1e-6, tolerance = 2.5e-13;  // the solver's
+  const Clearance<double> clearance;
+  for (const double gap : {-4e-12, -1e-12, 0.0, 5e-13, 1.7e-12, 4e-12, 9e-12, 1.1e-11, 5e-11, 2e-10, 1e-8}) {
+    for (const bool is_spare : {false, true}) {
+      Problem problem;
+      BentRow floor, ceiling;
+      ceiling.normal = -floor.normal;
+      floor.gap = ceiling.gap = gap;
+      BOOST_TEST_REQUIRE(problem.add(floor, {gap, false, is_spare}));
+      BOOST_TEST_REQUIRE(problem.add(ceiling, {gap}));
+      problem.project(Metric<double>(), {{0, 0, 1e-3}, Eigen::Vector3d::Zero()}, margin);
+      BOOST_TEST_CONTEXT("gap " << gap << (is_spare ? ", spare" : "")) {
+        BOOST_TEST(problem.is_relaxed(0));
+        BOOST_TEST(problem.gap_after(0) >= clearance.required(gap) - tolerance);
+      }
     }
   }
 }

@@ -26,10 +26,11 @@ struct Clearance {
     clearance.kept = kept_from_unknown;
     return clearance;
   }
-  /// Separation required along a motion that starts `start` away: tight fits may halve it, an overlap may stay but not grow.
+  /// Separation required along a motion that starts `start` away: tight fits may halve it, an overlap may stay but not grow. Where there is no more
+  /// than two allowances there is no clearance, and rounding decided how much: to halve that too would stop a tool that slides in such a fit.
   Scalar required(Scalar start) const noexcept {
     if (start >= 2 * kept) return std::min(kept, start);  // kept may be an overlap itself
-    if (start > allowance / 5) {
+    if (start > 2 * allowance) {
       // A motion that left no more than `rounding` ended a last bit below it, or above: the next one may lose such a bit, and not half.
       const Scalar least = start > rounding / 2 ? std::min(rounding, start - allowance / 32) : Scalar(0);
       return std::max(start / 2, least);

@@ -233,7 +233,7 @@ class StepProblem {
     }
   }
 
-  static constexpr Scalar no_clearance = Scalar(1e-10);
+  static constexpr Scalar no_clearance = Scalar(1e-11);  // as `Clearance::required` has it
   static constexpr Scalar picometre = Scalar(1e-12);  // some tolerances of a solver
 
   bool relax(int k, Scalar margin) noexcept {
