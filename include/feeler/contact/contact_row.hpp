@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 #include <Eigen/Geometry>
@@ -51,6 +52,7 @@ struct ContactRow {
   bool repeats(const ContactRow& other) const noexcept {
     constexpr Scalar angle = 4096 * std::numeric_limits<Scalar>::epsilon();
     const Scalar squared_angle = angle * angle, squared_length = squared_angle * arm.squaredNorm();
+    if (!(std::abs(normal.x() - other.normal.x()) <= angle)) return false;  // most are told apart by one number
     return (gap - other.gap) * (gap - other.gap) <= squared_length && is_assumed == other.is_assumed &&
            (normal - other.normal).squaredNorm() <= squared_angle && (arm - other.arm).cross(normal).squaredNorm() <= squared_length;
   }

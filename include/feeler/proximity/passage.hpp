@@ -41,9 +41,12 @@ struct HeldPlane {
   Scalar slack;
 };
 
+/// Number by number: of corners that were written a moment ago a processor cannot read two halves of two numbers at once, and waits.
 template <class Scalar>
 Scalar highest(const Matrix3<Scalar>& corners, const Vector3<Scalar>& normal) noexcept {
-  return (normal.transpose() * corners).maxCoeff();
+  const auto height = [&](int k) { return normal[0] * corners(0, k) + normal[1] * corners(1, k) + normal[2] * corners(2, k); };
+  const Scalar a = height(0), b = height(1), c = height(2), ab = a > b ? a : b;
+  return ab > c ? ab : c;
 }
 
 /// Part of a motion over which a plane certainly holds; 1 for all of it.
