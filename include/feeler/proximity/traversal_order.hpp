@@ -33,19 +33,22 @@ class NearestFirst {
   }
   /// @param passed  what is not 0 need not be visited
   void push_children(const BvhNode& node, const std::array<std::int32_t, BvhNode::width>& passed) noexcept {
-    FixedVector<float, BvhNode::width> ahead;  // of those pushed
+    std::array<float, BvhNode::width> ahead;  // of those pushed
+    std::array<std::int32_t, BvhNode::width> children;
+    std::size_t count = 0;
     for (std::size_t i = 0; i < passed.size(); ++i) {
       if (passed[i] != 0) continue;
       float along = 0.0F;
       for (std::size_t k = 0; k < 3; ++k) along += motion_[int(k)] * (node.lower[k][i] + node.upper[k][i]);
-      waiting_.push_back(node.child[i]);
-      ahead.push_back(along);
-      for (int at = ahead.size() - 1; at > 0 && ahead[at] > ahead[at - 1]; --at) {
-        const int place = waiting_.size() - ahead.size() + at;
-        std::swap(ahead[at], ahead[at - 1]);
-        std::swap(waiting_[place], waiting_[place - 1]);
+      std::size_t at = count++;
+      for (; at > 0 && along > ahead[at - 1]; --at) {
+        ahead[at] = ahead[at - 1];
+        children[at] = children[at - 1];
       }
+      ahead[at] = along;
+      children[at] = node.child[i];
     }
+    for (std::size_t i = 0; i < count; ++i) waiting_.push_back(children[i]);
   }
 
  private:
