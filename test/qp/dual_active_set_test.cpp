@@ -102,7 +102,7 @@ BOOST_AUTO_TEST_CASE(a_slot_that_is_too_narrow_is_infeasible_and_the_conflict_na
 }
 
 BOOST_AUTO_TEST_CASE(a_slot_of_walls_that_are_parallel_but_for_a_hair_is_infeasible_without_a_second_start) {
-  // The edge where the walls meet is a hundred metres away at least, the target a millimetre.
+  // The walls overlap by 2 µm, so the edge where they meet is 200 m away at the largest angle; the target, a millimetre.
   for (const double angle : {0.0, 1e-13, 1e-11, 4e-10, 1e-8}) {
     Problem problem = towards(six(0, 0, 1e-3));
     const Vector arm(0, 0.1, 0);

@@ -165,13 +165,13 @@ BOOST_AUTO_TEST_CASE(what_stopped_a_step_can_be_kept_where_it_ended_though_nothi
   room.lines.move_to(room.scene, Room::stand(back.linear.x()), true, room.tick);
   const int measured = problem.row_count();
   for (int k = 0; k < measured; ++k) BOOST_TEST(problem.row(k).normal.z() == 1, boost::test_tools::tolerance(1e-9));  // the wall is left out
-  BOOST_TEST(room.lines.keep_stops());
+  BOOST_TEST(room.lines.keep_stops(room.scene));
   BOOST_TEST(problem.row_count() > measured);
   for (int k = measured; k < problem.row_count(); ++k) {
     BOOST_TEST((problem.row(k).normal + Vector::UnitX()).norm() < 1e-7);
     BOOST_TEST(problem.row(k).gap == 1.5e-4, boost::test_tools::tolerance(1e-6));
   }
-  BOOST_TEST(!room.lines.keep_stops());  // they are there
+  BOOST_TEST(!room.lines.keep_stops(room.scene));  // they are there
 }
 
 BOOST_AUTO_TEST_CASE(of_pairs_with_the_same_rows_one_has_them_and_when_it_leaves_another_is_measured) {

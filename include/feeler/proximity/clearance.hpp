@@ -18,7 +18,9 @@ struct Clearance {
   Scalar resolution = Scalar(2.5e-7);  ///< advance too small to look for [m]
   Scalar probe = Scalar(1e-4);         ///< length of motion over which all blockers are wanted, not only the first [m]
 
-  /// A separation below it is none at all [m].
+  /// A separation up to it is none: rounding decided how much there is [m].
+  Scalar negligible() const noexcept { return 2 * allowance; }
+  /// With a separation below it a wall is slid along without clearance, whichever of its triangles was measured [m].
   Scalar none() const noexcept { return 20 * allowance; }
   /// The same, with what is kept from unknown triangles kept from all.
   Clearance from_unknown() const noexcept {
@@ -26,11 +28,11 @@ struct Clearance {
     clearance.kept = kept_from_unknown;
     return clearance;
   }
-  /// Separation required along a motion that starts `start` away: tight fits may halve it, an overlap may stay but not grow. Where there is no more
-  /// than two allowances there is no clearance, and rounding decided how much: to halve that too would stop a tool that slides in such a fit.
+  /// Separation required along a motion that starts `start` away: tight fits may halve it, an overlap may stay but not grow. To halve
+  /// what is negligible too would stop a tool that slides in such a fit.
   Scalar required(Scalar start) const noexcept {
     if (start >= 2 * kept) return std::min(kept, start);  // kept may be an overlap itself
-    if (start > 2 * allowance) {
+    if (start > negligible()) {
       // A motion that left no more than `rounding` ended a last bit below it, or above: the next one may lose such a bit, and not half.
       const Scalar least = start > rounding / 2 ? std::min(rounding, start - allowance / 32) : Scalar(0);
       return std::max(start / 2, least);

@@ -417,11 +417,13 @@ class DualActiveSet {
       is_sum = !(detail::size_of(rest) > allowed_rest);
     }
     const Scalar rounding = detail::rounding_at(x_);
-    const auto allowed = [&](const Six& row) { return tolerance + detail::product(rounding, detail::size_of(row)); };
-    Scalar slack = is_careful_ ? Scalar(0) : allowed(a);
+    const auto allowed = [&](const Six& row) {
+      return is_careful_ ? Scalar(0) : Scalar(tolerance + detail::product(rounding, detail::size_of(row)));
+    };
+    Scalar slack = allowed(a);
     for (int i = 0; i < operators_.used(); ++i) {
       const Six& normal = operators_.normal(i);
-      if (!is_careful_) slack -= detail::product(shares[index(i)], allowed(normal));
+      slack -= detail::product(shares[index(i)], allowed(normal));
       const Scalar drift = bounds_[slots_[index(i)]] - detail::dot(normal, x_);  // of x off this row
       violation -= detail::product(shares[index(i)], drift);
     }

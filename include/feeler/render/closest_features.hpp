@@ -353,7 +353,7 @@ class ClosestFeaturesFollower {
     const Twist<Scalar>& last_step = linearisation_.stopped();
     const Metric<Scalar>& metric = scene.metric();
     if (!(metric.product(solved_step(), last_step) < -metric.energy(last_step) / 2)) return false;
-    if (!linearisation_.keep_stops()) return false;
+    if (!linearisation_.keep_stops(scene)) return false;
     project_again(scene, off, false, tick);
     return true;
   }

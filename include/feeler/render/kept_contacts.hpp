@@ -23,7 +23,7 @@ class KeptContacts {
   void clear() noexcept { contacts_.clear(); }
   bool empty() const noexcept { return contacts_.empty(); }
   /// @param row            at the start of the motion
-  /// @param certified_gap  separation of its pair there [m]
+  /// @param certified_gap  separation of its pair there, 0 where that is none [m]
   void add(const Row& row, Scalar certified_gap) noexcept { contacts_.push_back({row, certified_gap, false}); }
 
   /// Before another linearisation: no row is in the problem.

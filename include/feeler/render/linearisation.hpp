@@ -77,7 +77,7 @@ class Linearisation {
       if (!holds_at_start(scene, pair, pair.last_normal, scene.clearance().required(pair.slack), tick)) return false;
       pair.is_ghost = pair.state == PairState::ghost;
     }
-    const bool are_carried = carry_rows(motion, tick, [&](const Row& row, const Pair& pair) {
+    const bool are_carried = carry_rows(scene, motion, tick, [&](const Row& row, const Pair& pair) {
       if (pair.state != PairState::has_rows) return false;
       keep_if_touching(scene, row, pair);
       return true;
@@ -108,7 +108,7 @@ class Linearisation {
     put_at(pose);
     is_at_start_ = false;
     for (const Pair& pair : pairs_) leaves_out_pairs_ = leaves_out_pairs_ || pair.state == PairState::left_out;
-    return carry_rows(motion, tick, [](const Row&, const Pair&) { return true; });
+    return carry_rows(scene, motion, tick, [](const Row&, const Pair&) { return true; });
   }
 
   /// Adds the rows of pairs left out whose planes a step crosses; false if there are none.
@@ -150,13 +150,13 @@ class Linearisation {
   /// The step last remembered.
   const Twist<Scalar>& stopped() const noexcept { return stopped_; }
   /// Adds what stopped the last step to the rows where it ended; false if they have it all.
-  bool keep_stops() noexcept {
+  bool keep_stops(const Scene& scene) noexcept {
     bool adds = false;
     const Displacement<Scalar> stopped = stopped_;
     for (const Row& stop : stops_) {
       const Row row = stop.carried(stopped);
       if (problem_.repeats(row)) continue;
-      adds = problem_.keep(row, pairs_[pairs_.find(row.piece, row.triangle)].slack) || adds;
+      adds = problem_.keep(row, certified_gap(scene, pairs_[pairs_.find(row.piece, row.triangle)])) || adds;
     }
     return adds;
   }
@@ -256,11 +256,11 @@ class Linearisation {
 
   /// Moves all rows by a motion; false where `may_carry(row, its pair)` is, or where a pair has left, and others may repeat it.
   template <class MayCarry>
-  bool carry_rows(const Displacement<Scalar>& motion, Tick<MeshScalar>& tick, const MayCarry& may_carry) noexcept {
+  bool carry_rows(const Scene& scene, const Displacement<Scalar>& motion, Tick<MeshScalar>& tick, const MayCarry& may_carry) noexcept {
     has_rows_ = problem_.carry(motion, [&](const Row& row) -> std::optional<Standing> {
       const int i = pairs_.find(row.piece, row.triangle);
       if (i < 0 || !may_carry(row, pairs_[i])) return {};
-      return standing_of(pairs_[i]);
+      return standing_of(scene, pairs_[i]);
     });
     tick.rows = problem_.row_count();
     return has_rows_;
@@ -342,7 +342,7 @@ class Linearisation {
       row.triangle = pair.triangle;
       if (problem_.repeats(row)) continue;
       pair.state = PairState::has_rows;
-      problem_.add(row, standing_of(pair));
+      problem_.add(row, standing_of(scene, pair));
       if (is_at_start_) keep_if_touching(scene, row, pair);
     }
     if constexpr (is_convex) {
@@ -364,7 +364,11 @@ class Linearisation {
     nearer_.clear();
   }
 
-  static Standing standing_of(const Pair& pair) noexcept { return {pair.slack, pair.is_tight, pair.is_spare()}; }
+  /// Separation of a pair where the motion starts, 0 where that is none [m].
+  static Scalar certified_gap(const Scene& scene, const Pair& pair) noexcept {
+    return pair.slack > scene.clearance().negligible() ? pair.slack : Scalar(0);
+  }
+  static Standing standing_of(const Scene& scene, const Pair& pair) noexcept { return {certified_gap(scene, pair), pair.is_tight, pair.is_spare()}; }
 
   /// Closest points of a pair, as `closest_points`, and what is remembered of them.
   static ClosestPoints<Scalar> query(const Scene& scene, Pair& pair, const Matrix3<Scalar>& corners, const Matrix3<Scalar>& axes, bool is_at_start,
@@ -379,7 +383,7 @@ class Linearisation {
   /// A contact so close that any motion may break it is kept; where there is no clearance at all, rounding decides which is.
   void keep_if_touching(const Scene& scene, const Row& row, const Pair& pair) noexcept {
     const bool touches = row.gap > scene.margin() / 1000 && row.gap < touching(scene);
-    if (touches && !pair.is_tight && !row.is_assumed) kept_.add(row, pair.slack);
+    if (touches && !pair.is_tight && !row.is_assumed) kept_.add(row, certified_gap(scene, pair));
   }
 
   /// Closest points of a pair, with the corners in the tool frame of a pose with the axes given. On the way the tool may overlap it; then the

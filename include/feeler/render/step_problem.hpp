@@ -34,7 +34,7 @@ class StepProblem {
 
   /// What is known of the pair that a row is of.
   struct Standing {
-    Scalar certified_gap;   ///< separation at the last certified pose [m]
+    Scalar certified_gap;   ///< separation at the last certified pose, 0 where that is none [m]
     bool is_tight = false;  ///< it was among those that could not have the margin: relax it with the first that cannot
     bool is_spare = false;  ///< it has not held the tool lately: where there is no clearance others are to hold it
   };
@@ -209,7 +209,7 @@ class StepProblem {
       if (round < maximum_rounds && status == QpStatus::infeasible) {
         for (const int k : solution_.conflict) has_relaxed = relax(k, margin) || has_relaxed;
         for (int k = 0; round == 0 && k < problem_.row_count; ++k) {
-          if (standings_[index(k)].is_tight || standings_[index(k)].certified_gap <= no_clearance) has_relaxed = relax(k, margin) || has_relaxed;
+          if (standings_[index(k)].is_tight || !(standings_[index(k)].certified_gap > Scalar(0))) has_relaxed = relax(k, margin) || has_relaxed;
         }
       }
       if (has_relaxed) continue;
@@ -233,7 +233,6 @@ class StepProblem {
     }
   }
 
-  static constexpr Scalar no_clearance = Scalar(1e-11);  // as `Clearance::required` has it
   static constexpr Scalar picometre = Scalar(1e-12);  // some tolerances of a solver
 
   bool relax(int k, Scalar margin) noexcept {
@@ -241,7 +240,7 @@ class StepProblem {
     is_relaxed_[index(k)] = true;
     const Standing& standing = standings_[index(k)];
     const Scalar enough = margin / 5, least = standing.is_spare ? -picometre : Scalar(0);
-    const Scalar target = standing.certified_gap > no_clearance ? std::min(standing.certified_gap, enough) : least;
+    const Scalar target = standing.certified_gap > Scalar(0) ? std::min(standing.certified_gap, enough) : least;
     problem_.bounds[index(k)] = std::min(problem_.bounds[index(k)], target - rows_[k].gap);
     return true;
   }
