@@ -84,6 +84,32 @@ BOOST_AUTO_TEST_CASE(a_shaft_slides_like_the_device_and_stays_in_the_corner_it_i
   }
 }
 
+BOOST_AUTO_TEST_CASE(of_several_hands_few_ticks_are_late_or_off_the_free_axis) {
+  // Which of hundreds of pairs a tick has time for hangs on the last bits of the hand. Until a wall is known that is missing, a shaft may tilt.
+  for (const double clearance : {1e-3, 1e-4, 1e-5, 1e-6}) {
+    BOOST_TEST_CONTEXT("clearance " << clearance) {
+      double worst = 0;
+      int ticks = 0, rare = 0;
+      for (int hand = 1; hand <= 5; ++hand) {
+        PressedShaft shaft(clearance);
+        for (int i = 1; i <= ticks_to_run(800); ++i) {
+          Pose<double> device = PressedShaft::device(i);
+          device.translation.x() += hand * 1e-9;
+          const auto& tick = shaft.renderer.update(device);
+          if (i <= 4 * first_ticks) continue;
+          const double slide = std::abs(tick.graphic_pose.translation.z() - device.translation.z());
+          ++ticks;
+          rare += !tick.converged() || slide > 1e-9 * 0.008 ? 1 : 0;
+          if (tick.converged()) worst = std::max(worst, slide);
+        }
+      }
+      BOOST_TEST_MESSAGE("clearance " << clearance << ": " << rare << " of " << ticks << " ticks late or off, by " << worst << " m at most where converged");
+      BOOST_TEST(rare <= 1 + ticks / 500);
+      BOOST_TEST(worst <= 1e-7);
+    }
+  }
+}
+
 BOOST_AUTO_TEST_CASE(a_pressed_shaft_comes_to_rest_whatever_a_tick_may_take) {
   // About where there is no room for the margin, hundreds of pairs touch, and what the first ticks have time for decides which are looked at.
   // With the first seven budgets one at the rim was missing at 1 µm, and the shaft hopped to and fro by 0.1 µm for ever.
