@@ -5,6 +5,7 @@
 
 #include "feeler/core/fixed_vector.hpp"
 #include "feeler/core/scalar.hpp"
+#include "feeler/proximity/highest_corner.hpp"
 
 namespace feeler {
 
@@ -29,7 +30,7 @@ class CoveringPlanes {
   /// @param normal    unit, from the triangle to the tool
   /// @param distance  separation of the two along it [m]
   void add(const Vector3<Scalar>& normal, const Matrix3<Scalar>& corners, Scalar distance) noexcept {
-    planes_.push_back({normal, (normal.transpose() * corners).maxCoeff(), distance});
+    planes_.push_back({normal, highest_corner(corners, normal), distance});
   }
   /// A plane that a triangle is below, but for `tolerance`, and leaves by more than `depth` [m]; with the distance of the tool along it. A
   /// triangle that lies in the plane may be what holds another corner of the tool.

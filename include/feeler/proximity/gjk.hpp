@@ -9,6 +9,7 @@
 #include "feeler/core/fixed_vector.hpp"
 #include "feeler/core/scalar.hpp"
 #include "feeler/proximity/closest_on_simplex.hpp"
+#include "feeler/proximity/highest_corner.hpp"
 #include "feeler/tool/convex_tool.hpp"
 #include "feeler/tool/swept_tool.hpp"
 
@@ -135,7 +136,7 @@ ClosestPoints<typename Tool::Scalar> gjk(const Tool& tool, const Matrix3<typenam
   if (area > Scalar(0) && !closest.is_touching) {
     const Vector3<Scalar> normal = across / (across.dot(closest.normal) < Scalar(0) ? -area : area);
     const int vertex = tool.support(Vector3<Scalar>(-normal));
-    const Scalar distance = normal.dot(tool.vertex(vertex)) - (normal.transpose() * triangle).maxCoeff();
+    const Scalar distance = normal.dot(tool.vertex(vertex)) - highest_corner(triangle, normal);
     if (distance >= closest.distance) {
       closest.normal = normal;
       closest.distance = distance;

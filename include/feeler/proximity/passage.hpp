@@ -7,6 +7,7 @@
 
 #include "feeler/core/scalar.hpp"
 #include "feeler/proximity/clearance.hpp"
+#include "feeler/proximity/highest_corner.hpp"
 #include "feeler/proximity/motion.hpp"
 #include "feeler/proximity/separation.hpp"
 
@@ -41,14 +42,6 @@ struct HeldPlane {
   Scalar slack;
 };
 
-/// Number by number: of corners that were written a moment ago a processor cannot read two halves of two numbers at once, and waits.
-template <class Scalar>
-Scalar highest(const Matrix3<Scalar>& corners, const Vector3<Scalar>& normal) noexcept {
-  const auto height = [&](int k) { return normal[0] * corners(0, k) + normal[1] * corners(1, k) + normal[2] * corners(2, k); };
-  const Scalar a = height(0), b = height(1), c = height(2), ab = a > b ? a : b;
-  return ab > c ? ab : c;
-}
-
 /// Part of a motion over which a plane certainly holds; 1 for all of it.
 template <class Scalar>
 struct HeldPart {
@@ -71,15 +64,15 @@ HeldPart<typename Tool::Scalar> held_part(const MovingTool<Tool>& moving, const 
   const Scalar here = plane.slack - required;
   // Fixed to the tool: the tool's height does not change, the triangle's does.
   const Vector3<Scalar> turned = other.rotation * (at.rotation.transpose() * plane.normal);
-  const Scalar height = plane.slack + highest(corners, plane.normal) - plane.normal.dot(at.shift);
-  const Scalar there_tool = height + turned.dot(other.shift) - highest(corners, turned) - required;
+  const Scalar height = plane.slack + highest_corner(corners, plane.normal) - plane.normal.dot(at.shift);
+  const Scalar there_tool = height + turned.dot(other.shift) - highest_corner(corners, turned) - required;
   const Scalar reach = sqrt(std::max((corners.colwise() - at.shift).colwise().squaredNorm().maxCoeff(),
                                      (corners.colwise() - other.shift).colwise().squaredNorm().maxCoeff()));
   const Scalar sagitta_tool = moving.sagitta_of_object(plane.normal, duration, reach);
   const Scalar part_tool = at_is_start ? first_root(here, there_tool, sagitta_tool) : first_root(there_tool, here, sagitta_tool);
   if (!(part_tool < Scalar(1))) return {Scalar(1), true};
   // Fixed to the world.
-  const Scalar there = moving.lowest(plane.normal, other) - highest(corners, plane.normal) - required;
+  const Scalar there = moving.lowest(plane.normal, other) - highest_corner(corners, plane.normal) - required;
   const Scalar sagitta = moving.sagitta(plane.normal, duration);
   const Scalar part_world = at_is_start ? first_root(here, there, sagitta) : first_root(there, here, sagitta);
   return {std::max(part_tool, part_world), part_world < part_tool};
@@ -108,7 +101,7 @@ bool turning_plane_holds(const MovingTool<Tool>& moving, const Matrix3<typename 
   if (!(b0 >= Scalar(0)) || !(b2 >= Scalar(0))) return false;
   const Vector3<Scalar> across = end.rotation.transpose() * first.normal + start.rotation.transpose() * last.normal;
   const Scalar lowest = moving.lowest_in_tool(across) + first.normal.dot(end.shift) + last.normal.dot(start.shift);
-  Scalar b1 = (lowest - highest<Scalar>(corners, first.normal + last.normal)) / 2 - required;
+  Scalar b1 = (lowest - highest_corner<Scalar>(corners, first.normal + last.normal)) / 2 - required;
   // For a ball of radius r, r|n(t)| is subtracted, and |n(t)| ≤ 1 − (1 − n₀·n₁) t (1 − t), whose coefficients are 1, ½(1 + n₀·n₁) and 1.
   if constexpr (SweptTool<Tool>) b1 -= swept_radius(moving.tool()) * (Scalar(1) + first.normal.dot(last.normal)) / 2;
   const Scalar duration = end.time - start.time;
@@ -152,7 +145,7 @@ Passage<typename Tool::Scalar> pass(const MovingTool<Tool>& moving, const Passed
     return Plane{frame.rotation * closest.normal, closest.distance};
   };
   const auto slack_at = [&](const Vector3<Scalar>& normal, const MotionFrame<Scalar>& frame) {
-    return moving.lowest(normal, frame) - detail::highest(corners, normal);
+    return moving.lowest(normal, frame) - highest_corner(corners, normal);
   };
   const bool is_known = triangle.normal.squaredNorm() > Scalar(0);
   Plane plane{triangle.normal, is_known ? slack_at(triangle.normal, start) : Scalar(0)};

@@ -9,6 +9,7 @@
 #include <Eigen/Geometry>
 
 #include "feeler/core/scalar.hpp"
+#include "feeler/proximity/highest_corner.hpp"
 #include "feeler/tool/convex_tool.hpp"
 #include "feeler/tool/swept_tool.hpp"
 
@@ -25,7 +26,7 @@ struct SeparatingAxis {
 template <ConvexTool Tool>
 typename Tool::Scalar separation_along(const Tool& tool, const Matrix3<typename Tool::Scalar>& triangle,
                                        const Vector3<typename Tool::Scalar>& normal) noexcept {
-  return -highest_along(tool, Vector3<typename Tool::Scalar>(-normal)) - (normal.transpose() * triangle).maxCoeff();
+  return -highest_along(tool, Vector3<typename Tool::Scalar>(-normal)) - highest_corner(triangle, normal);
 }
 
 template <SweptTool Tool>

@@ -17,6 +17,7 @@
 #include "feeler/object/triangle_mesh.hpp"
 #include "feeler/proximity/coarse_planes.hpp"
 #include "feeler/proximity/gjk.hpp"
+#include "feeler/proximity/highest_corner.hpp"
 #include "feeler/proximity/motion.hpp"
 #include "feeler/proximity/passage.hpp"
 #include "feeler/proximity/plane_cache.hpp"
@@ -253,8 +254,8 @@ class Sweep {
     for (const KnownTriangle<Scalar>& wall : known_) {
       if (!wall.is_tight) continue;
       PlaneOnMotion<Scalar> plane{wall.state.normal};
-      const Scalar height = detail::highest(corners, plane.normal);  // of most, not that of the wall
-      if (!(std::abs(height - detail::highest(wall.state.corners, plane.normal)) < 2 * clearance_.none())) continue;
+      const Scalar height = highest_corner(corners, plane.normal);  // of most, not that of the wall
+      if (!(std::abs(height - highest_corner(wall.state.corners, plane.normal)) < 2 * clearance_.none())) continue;
       plane.begin(moving, start_);
       if (!(std::abs(plane.start - height) < clearance_.none())) continue;
       plane.end(moving, end_);
@@ -304,7 +305,7 @@ class Sweep {
 
   /// Whether one plane passes a triangle.
   bool passes(const Matrix3<Scalar>& corners, int i) noexcept {
-    const Scalar height = detail::highest(corners, planes_.normal(i));
+    const Scalar height = highest_corner(corners, planes_.normal(i));
     if (!(height <= planes_.limit(i) || planes_.parts_closely(i, height, clearance_))) return false;
     planes_.count_hits(i, 1);
     return true;

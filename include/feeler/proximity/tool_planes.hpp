@@ -6,6 +6,7 @@
 
 #include "feeler/core/scalar.hpp"
 #include "feeler/proximity/age_planes.hpp"
+#include "feeler/proximity/highest_corner.hpp"
 #include "feeler/proximity/motion.hpp"
 #include "feeler/tool/swept_tool.hpp"
 
@@ -75,7 +76,7 @@ class ToolPlanes {
     Vector3<Scalar> normal;
     Scalar limit;
 
-    bool is_above(const Matrix3<Scalar>& corners) const noexcept { return (normal.transpose() * corners).maxCoeff() <= limit; }
+    bool is_above(const Matrix3<Scalar>& corners) const noexcept { return highest_corner(corners, normal) <= limit; }
   };
 
   struct Plane {

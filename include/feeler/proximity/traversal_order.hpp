@@ -41,7 +41,7 @@ class NearestFirst {
       float along = 0.0F;
       for (std::size_t k = 0; k < 3; ++k) along += motion_[int(k)] * (node.lower[k][i] + node.upper[k][i]);
       std::size_t at = count++;
-      for (; at > 0 && along > ahead[at - 1]; --at) {
+      for (; at > 0 && along > ahead[at - 1]; --at) {  // moved one by one: of two that are swapped g++ reads both at once, and waits for them
         ahead[at] = ahead[at - 1];
         children[at] = children[at - 1];
       }

@@ -10,6 +10,7 @@
 #include "feeler/core/scalar.hpp"
 #include "feeler/object/surface_walk.hpp"
 #include "feeler/object/triangle_normal.hpp"
+#include "feeler/proximity/highest_corner.hpp"
 #include "feeler/proximity/motion.hpp"
 #include "feeler/proximity/separation.hpp"
 #include "feeler/proximity/sweep.hpp"
@@ -313,7 +314,7 @@ class Linearisation {
     }
     const Piece& piece = scene.piece(pair.piece);
     const Scalar lowest = lowest_above(piece, scene.reference(), Vector3<Scalar>(axes.transpose() * normal)) - swept_radius(piece);
-    return lowest - (normal.transpose() * (pair.corners_world.colwise() - pose.translation)).maxCoeff();
+    return lowest - highest_corner<Scalar>(pair.corners_world.colwise() - pose.translation, normal);
   }
 
   /// Measures a pair where the rows are, and adds its rows.

@@ -209,7 +209,7 @@ class StepProblem {
       if (round < maximum_rounds && status == QpStatus::infeasible) {
         for (const int k : solution_.conflict) has_relaxed = relax(k, margin) || has_relaxed;
         for (int k = 0; round == 0 && k < problem_.row_count; ++k) {
-          if (standings_[index(k)].is_tight || !(standings_[index(k)].certified_gap > Scalar(0))) has_relaxed = relax(k, margin) || has_relaxed;
+          if (standings_[index(k)].is_tight || standings_[index(k)].certified_gap <= Scalar(0)) has_relaxed = relax(k, margin) || has_relaxed;
         }
       }
       if (has_relaxed) continue;
