@@ -2,9 +2,7 @@
 #pragma once
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <cstddef>
 #include <cstdint>
 #include <limits>
 #include <span>
@@ -13,7 +11,6 @@
 
 #include "feeler/core/fixed_vector.hpp"
 #include "feeler/core/scalar.hpp"
-#include "feeler/object/bvh.hpp"
 #include "feeler/object/triangle_mesh.hpp"
 #include "feeler/proximity/coarse_planes.hpp"
 #include "feeler/proximity/gjk.hpp"
@@ -22,6 +19,7 @@
 #include "feeler/proximity/passage.hpp"
 #include "feeler/proximity/plane_cache.hpp"
 #include "feeler/proximity/traversal_order.hpp"
+#include "feeler/proximity/unpassed_triangles.hpp"
 
 namespace feeler {
 
@@ -82,9 +80,6 @@ class Sweep {
   using Scalar = typename Tool::Scalar;
   using Vector = Vector3<Scalar>;
 
-  /// Nodes and leaves of the hierarchy that count as much work as one distance query.
-  static constexpr int nodes_per_work = 16;
-
   Sweep(PlaneCache<Scalar>& planes, const Clearance<Scalar>& clearance) noexcept
       : planes_(planes), from_known_(clearance), clearance_(clearance.from_unknown()) {}
 
@@ -115,14 +110,16 @@ class Sweep {
       examine(triangle, {corners, Vector::Zero(), planes_.features().recall_or_guess(triangle), false}, clearance_, moving, result, work);
       return true;
     };
-    const auto goes_on = [&](int& low) {  // with a shorter motion
+    int low = limit - (limit - work) / 8;
+    const auto may_go_on = [&] {
+      if (work <= low) return true;
       if (work > limit) return false;
       low = limit - (limit - low) / 2;
-      result.time = std::min(result.time, end_.time / 4);
+      result.time = std::min(result.time, end_.time / 4);  // with a shorter motion
       set_end(moving, end_.time / 4);
       return true;
     };
-    const bool is_done = traverse(mesh, moving, work, limit - (limit - work) / 8, is_known, look_at, goes_on);
+    const bool is_done = traverse(mesh, moving, work, is_known, look_at, may_go_on);
     count_hits();
     return is_done ? result : give_up(result);
   }
@@ -140,7 +137,7 @@ class Sweep {
       add_plane(start_.rotation * closest.normal, moving);
       return passes(corners, moving);
     };
-    const bool is_done = traverse(mesh, moving, work, limit, [](int) { return false; }, is_parted, [](int&) { return false; });
+    const bool is_done = traverse(mesh, moving, work, [](int) { return false; }, is_parted, [&] { return work <= limit; });
     count_hits();
     return is_done;
   }
@@ -158,63 +155,19 @@ class Sweep {
     set_end(moving, until);
   }
 
-  /// Calls `visit(triangle, its corners relative to the motion's origin)` for every triangle not `is_known` that no cached plane passes, and `goes_on(limit)`
-  /// when the work done exceeds the limit, which it may raise, until one call is false; true when it came to the end.
-  template <class MeshScalar, class IsKnown, class Visit, class GoesOn>
+  /// Calls `visit(triangle, its corners relative to the motion's origin)` for every triangle not `is_known` that no cached plane passes, and
+  /// `may_go_on()` between, until one call is false; true when it came to the end.
+  template <class MeshScalar, class IsKnown, class Visit, class MayGoOn>
   [[gnu::flatten, gnu::noinline]]
-  bool traverse(const TriangleMesh<MeshScalar>& mesh, const MovingTool<Tool>& moving, int& work, int limit, const IsKnown& is_known,
-                const Visit& visit, const GoesOn& goes_on) noexcept {
-    const auto& bvh = mesh.bvh();
-    Order waiting(moving.motion().linear.template cast<float>());
-    int count = 0;
-    while (!waiting.empty()) {
-      const std::span<const std::int32_t> next = waiting.take();
-      count += int(next.size());
-      work += count / nodes_per_work;
-      count %= nodes_per_work;
-      if (work > limit && !goes_on(limit)) return false;
-      if (!BvhNode::is_leaf(next.front())) {
-        const auto node_of = [&](std::int32_t entry) { return &bvh.nodes()[std::size_t(entry)]; };
-        in_groups_of<Order::side_by_side>(next, node_of, [&](const auto& nodes) {
-          const auto passed = coarse_.passed(nodes, planes_.size());
-          for (std::size_t i = 0; i < nodes.size(); ++i) waiting.push_children(*nodes[i], passed[i]);
-        });
-        continue;
-      }
-      std::array<std::int32_t, std::size_t(Order::leaves_at_once * BvhLeaf::width + 1)> suspects;  // one more is written, and not counted
-      std::size_t suspect_count = 0;
-      const auto leaf_of = [&](std::int32_t entry) { return &bvh.leaves()[std::size_t(~entry)]; };
-      in_groups_of<Order::side_by_side>(next, leaf_of, [&](const auto& leaves) {
-        const auto passed = coarse_.passed(leaves, planes_.size());
-        for (std::size_t i = 0; i < leaves.size(); ++i) {
-          for (std::size_t lane = 0; lane < passed[i].size(); ++lane) {
-            const std::int32_t triangle = leaves[i]->triangle[lane];
-            suspects[suspect_count] = triangle;
-            suspect_count += std::size_t((passed[i][lane] == 0) & (triangle >= 0));
-          }
-        }
-      });
-      for (std::size_t i = 0; i < suspect_count; ++i) {
-        const int triangle = suspects[i];
-        if (i > 0 && i % BvhLeaf::width == 0 && work > limit && !goes_on(limit)) return false;  // as leaf by leaf
-        if (is_known(triangle)) continue;
-        const Matrix3<Scalar> corners = mesh.corners(triangle).template cast<Scalar>().colwise() - moving.origin();
-        if (!passes(corners, moving) && !visit(triangle, corners)) return false;
-      }
-    }
-    return true;
-  }
-
-  /// Calls `visit` with arrays of what `find` gives for so many entries, and of one for each that is left.
-  template <std::size_t size, class Find, class Visit>
-  static void in_groups_of(std::span<const std::int32_t> entries, const Find& find, const Visit& visit) noexcept {
-    std::size_t i = 0;
-    for (; i + size <= entries.size(); i += size) {
-      std::array<decltype(find(0)), size> group;
-      for (std::size_t j = 0; j < size; ++j) group[j] = find(entries[i + j]);
-      visit(group);
-    }
-    for (; i < entries.size(); ++i) visit(std::array{find(entries[i])});
+  bool traverse(const TriangleMesh<MeshScalar>& mesh, const MovingTool<Tool>& moving, int& work, const IsKnown& is_known, const Visit& visit,
+                const MayGoOn& may_go_on) noexcept {
+    const auto look_at = [&](int triangle) {
+      if (is_known(triangle)) return true;
+      const Matrix3<Scalar> corners = mesh.corners(triangle).template cast<Scalar>().colwise() - moving.origin();
+      return passes(corners, moving) || visit(triangle, corners);
+    };
+    const auto plane_count = [this] { return planes_.size(); };
+    return visit_unpassed(mesh.bvh(), coarse_, plane_count, Order(moving.motion().linear.template cast<float>()), work, look_at, may_go_on);
   }
 
   static SweepResult<Scalar> give_up(SweepResult<Scalar>& result) noexcept {

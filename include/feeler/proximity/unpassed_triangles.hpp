@@ -1,0 +1,77 @@
+// The triangles of a hierarchy that no plane passes, box by box.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+
+#include "feeler/object/bvh.hpp"
+
+namespace feeler {
+
+/// Nodes and leaves of a hierarchy that count as much work as one distance query.
+inline constexpr int nodes_per_work = 16;
+
+namespace detail {
+
+/// Calls `visit` with arrays of what `find` gives for so many entries, and of one for each that is left.
+template <std::size_t size, class Find, class Visit>
+void in_groups_of(std::span<const std::int32_t> entries, const Find& find, const Visit& visit) noexcept {
+  std::size_t i = 0;
+  for (; i + size <= entries.size(); i += size) {
+    std::array<decltype(find(0)), size> group;
+    for (std::size_t j = 0; j < size; ++j) group[j] = find(entries[i + j]);
+    visit(group);
+  }
+  for (; i < entries.size(); ++i) visit(std::array{find(entries[i])});
+}
+
+}  // namespace detail
+
+/// Calls `visit(triangle)` for every triangle that none of the planes passes, and `may_go_on()` between, until one call is false; true when it came
+/// to the end. Both may change the planes.
+/// @param planes       `CoarsePlanes`
+/// @param plane_count  `plane_count()` is how many they are
+/// @param waiting      an order of visits with the root in it: `NearestFirst` or `InBatches`
+/// @param work         grows by the work done
+template <class Scalar, class Planes, class PlaneCount, class Order, class Visit, class MayGoOn>
+bool visit_unpassed(const Bvh<Scalar>& bvh, Planes& planes, const PlaneCount& plane_count, Order waiting, int& work,
+                    const Visit& visit, const MayGoOn& may_go_on) noexcept {
+  int count = 0;
+  while (!waiting.empty()) {
+    const std::span<const std::int32_t> next = waiting.take();
+    count += int(next.size());
+    work += count / nodes_per_work;
+    count %= nodes_per_work;
+    if (!may_go_on()) return false;
+    if (!BvhNode::is_leaf(next.front())) {
+      const auto node_of = [&](std::int32_t entry) { return &bvh.nodes()[std::size_t(entry)]; };
+      detail::in_groups_of<Order::side_by_side>(next, node_of, [&](const auto& nodes) {
+        const auto passed = planes.passed(nodes, plane_count());
+        for (std::size_t i = 0; i < nodes.size(); ++i) waiting.push_children(*nodes[i], passed[i]);
+      });
+      continue;
+    }
+    std::array<std::int32_t, std::size_t(Order::leaves_at_once * BvhLeaf::width + 1)> unpassed;  // one more is written, and not counted
+    std::size_t unpassed_count = 0;
+    const auto leaf_of = [&](std::int32_t entry) { return &bvh.leaves()[std::size_t(~entry)]; };
+    detail::in_groups_of<Order::side_by_side>(next, leaf_of, [&](const auto& leaves) {
+      const auto passed = planes.passed(leaves, plane_count());
+      for (std::size_t i = 0; i < leaves.size(); ++i) {
+        for (std::size_t lane = 0; lane < passed[i].size(); ++lane) {
+          const std::int32_t triangle = leaves[i]->triangle[lane];
+          unpassed[unpassed_count] = triangle;
+          unpassed_count += std::size_t((passed[i][lane] == 0) & (triangle >= 0));
+        }
+      }
+    });
+    for (std::size_t i = 0; i < unpassed_count; ++i) {
+      if (i > 0 && i % BvhLeaf::width == 0 && !may_go_on()) return false;  // as leaf by leaf
+      if (!visit(int(unpassed[i]))) return false;
+    }
+  }
+  return true;
+}
+
+}  // namespace feeler
