@@ -28,8 +28,10 @@ struct PressedShaft {
     BOOST_TEST((renderer.reset(scenes::pose_of({0, 0, 0}, {0, 0, middle})) == Status::converged));
   }
 
-  /// The device at a millisecond of its motion.
-  static Pose<double> device(int tick) { return scenes::pose_of({0, 0, 0}, {0.003, 0.002, middle + 0.004 * std::sin(0.008 * tick)}); }
+  /// The device at a millisecond of its motion; hands are a nanometre apart.
+  static Pose<double> device(int tick, int hand = 0) {
+    return scenes::pose_of({0, 0, 0}, {0.003 + hand * 1e-9, 0.002, middle + 0.004 * std::sin(0.008 * tick)});
+  }
   static constexpr double fastest = 0.004 * 0.008;  // way of the device in a tick [m]
 
   Settings<double> settings(int budget) const {
@@ -84,28 +86,28 @@ BOOST_AUTO_TEST_CASE(a_shaft_slides_like_the_device_and_stays_in_the_corner_it_i
   }
 }
 
-BOOST_AUTO_TEST_CASE(of_several_hands_few_ticks_are_late_or_off_the_free_axis) {
-  // Which of hundreds of pairs a tick has time for hangs on the last bits of the hand. Until a wall is known that is missing, a shaft may tilt.
-  for (const double clearance : {1e-3, 1e-4, 1e-5, 1e-6}) {
+BOOST_AUTO_TEST_CASE(it_slides_so_whatever_the_hand) {
+  // Which of hundreds of pairs a tick has time for hangs on the last bits of the hand. While a wall, or an end of one, was known only once it blocked,
+  // 1 of 3000 ticks was late, and of the others 1 of 10,000 was off by up to 85 nm as the shaft had tilted; 39 of 200 shafts rested turned.
+  for (const double clearance : {1e-3, 1e-4, 1e-5, 3e-6, 2e-6, 1.5e-6, 1e-6}) {
     BOOST_TEST_CONTEXT("clearance " << clearance) {
-      double worst = 0;
-      int ticks = 0, rare = 0;
-      for (int hand = 1; hand <= 5; ++hand) {
+      double worst_slide = 0, worst_turn = 0;
+      int late = 0;
+      for (int hand = 1; hand <= 8; ++hand) {
         PressedShaft shaft(clearance);
-        for (int i = 1; i <= ticks_to_run(800); ++i) {
-          Pose<double> device = PressedShaft::device(i);
-          device.translation.x() += hand * 1e-9;
+        for (int i = 1; i <= ticks_to_run(600); ++i) {
+          const Pose<double> device = PressedShaft::device(i, hand);
           const auto& tick = shaft.renderer.update(device);
           if (i <= 4 * first_ticks) continue;
-          const double slide = std::abs(tick.graphic_pose.translation.z() - device.translation.z());
-          ++ticks;
-          rare += !tick.converged() || slide > 1e-9 * 0.008 ? 1 : 0;
-          if (tick.converged()) worst = std::max(worst, slide);
+          late += tick.converged() ? 0 : 1;
+          if (tick.converged()) worst_slide = std::max(worst_slide, std::abs(tick.graphic_pose.translation.z() - device.translation.z()));
+          worst_turn = std::max(worst_turn, log_rotation(tick.graphic_pose.rotation).norm());
         }
       }
-      BOOST_TEST_MESSAGE("clearance " << clearance << ": " << rare << " of " << ticks << " ticks late or off, by " << worst << " m at most where converged");
-      BOOST_TEST(rare <= 1 + ticks / 500);
-      BOOST_TEST(worst <= 1e-7);
+      BOOST_TEST_MESSAGE("clearance " << clearance << ": slides " << worst_slide << " m behind the device, turned by " << worst_turn << "; " << late << " late");
+      BOOST_TEST(late <= 1);
+      BOOST_TEST(worst_slide <= 1e-9 * 0.008);
+      BOOST_TEST(worst_turn <= 1e-9);
     }
   }
 }

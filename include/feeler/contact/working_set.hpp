@@ -65,6 +65,8 @@ class WorkingSet {
   const Pair& operator[](int i) const noexcept { return pairs_[i]; }
   Pair* begin() noexcept { return pairs_.begin(); }
   Pair* end() noexcept { return pairs_.end(); }
+  const Pair* begin() const noexcept { return pairs_.begin(); }
+  const Pair* end() const noexcept { return pairs_.end(); }
   bool full() const noexcept { return pairs_.full(); }
   void clear() noexcept { pairs_.clear(); }
 

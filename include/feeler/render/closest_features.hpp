@@ -2,10 +2,13 @@
 #pragma once
 
 #include <algorithm>
+#include <type_traits>
+#include <variant>
 
 #include "feeler/core/status.hpp"
 #include "feeler/render/contact_method.hpp"
 #include "feeler/render/linearisation.hpp"
+#include "feeler/render/lookout.hpp"
 #include "feeler/render/motion_certificate.hpp"
 #include "feeler/render/rendered_scene.hpp"
 #include "feeler/render/step_limits.hpp"
@@ -35,6 +38,7 @@ class ClosestFeaturesFollower {
     pose_ = pose;
     linearisation_.clear();
     certificate_.clear();
+    lookout_ = {};
     goes_on_ = takes_first_alone_ = false;
     budget_.reset();
     limits_.reset(scene.trust_radius());
@@ -50,6 +54,7 @@ class ClosestFeaturesFollower {
     budget_.begin_tick(scene.settings().work_budget);
     goes_on_ = !advance(scene, tick);
     budget_.end_tick(tick.work, tick.path.size() > idle_legs);
+    if constexpr (looks_around) lookout_.look(scene, pose_, certificate_, linearisation_, tick);
     turn_idly(scene, tick);
     return goes_on_ ? Status::unconverged : Status::converged;
   }
@@ -81,6 +86,7 @@ class ClosestFeaturesFollower {
 
  private:
   static constexpr int maximum_rounds = 4;  // linearisations for one motion
+  static constexpr bool looks_around = CompoundShape<typename Scene::Tool>;
 
   /// A step proposed to the certificate.
   struct Proposal {
@@ -372,6 +378,7 @@ class ClosestFeaturesFollower {
   StepLimits<Scalar> limits_;
   Linearisation<ToolType, Solver> linearisation_;
   MotionCertificate<ToolType> certificate_;
+  [[no_unique_address]] std::conditional_t<looks_around, Lookout, std::monostate> lookout_;
 };
 
 /// The default contact method: constraint planes between the closest features of the tool and the triangles in its way.

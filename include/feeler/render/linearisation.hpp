@@ -184,6 +184,14 @@ class Linearisation {
     }
   }
 
+  /// Takes in a pair that is near at a certified pose, though it blocked no motion.
+  void discover(const Scene& scene, const Pose<Scalar>& pose, int piece, int triangle, Tick<MeshScalar>& tick) noexcept {
+    if (pairs_.full() || pairs_.find(piece, triangle) >= 0) return;
+    Pair& pair = take_in(scene, piece, triangle, {});
+    const Matrix3<Scalar> axes = pose.rotation.toRotationMatrix();
+    query(scene, pair, scene.in_tool(pair.corners_world, pose, axes), axes, true, tick);
+  }
+
   /// Takes what blocked a motion into the working set; false when another linearisation would find no more than the last, as all of it was
   /// there already with rows of its own, and it is the way that meets it.
   bool admit(const Scene& scene, const SweepResult<Scalar>& result) noexcept {

@@ -31,6 +31,9 @@ class MotionCertificate {
     for (auto& group : groups_) group.clear();
   }
 
+  /// Planes that parted a piece from its surroundings.
+  const PlaneCache<Scalar>& planes(int piece) const noexcept { return planes_[std::size_t(piece)]; }
+
   /// How far a motion is free; of one that turns by more than 3 rad only as much is looked at.
   /// @param from    pose of the reference point
   /// @param work    grows by the work done
