@@ -96,10 +96,12 @@ class Surroundings {
   }
 
  private:
+  static constexpr int most_planes = 24, most_walls = 16;
+
   /// Passes what is no higher than a limit along a normal.
   struct Plane {
-    Vector normal;
-    Scalar limit;
+    Vector normal = Vector::Zero();
+    Scalar limit = Scalar(0);
   };
   /// A corner of the part of a wall that the tool is over.
   struct End {
@@ -108,12 +110,13 @@ class Surroundings {
     int triangle = -1;                                         // that one, or none if it is known
   };
   struct Wall {
-    Vector normal;
-    Scalar height;  // along it
-    bool holds = false;
+    Vector normal = Vector::Zero();
+    Scalar height = Scalar(0);  // along it
+    bool holds = false;         // the tool
     std::array<End, 4> ends;
 
     Wall() = default;
+    /// @param side  a vector along the wall: its ends are looked for along the diagonals of a rectangle with that side
     Wall(const Vector& n, Scalar h, const Vector& side) noexcept : normal(n), height(h) {
       const Vector along = (side - n.dot(side) * n).normalized(), across = n.cross(along);
       ends[0].towards = along + across;
@@ -177,9 +180,9 @@ class Surroundings {
   const MovingTool<Tool>& moving_;
   MotionFrame<Scalar> start_;
   Scalar touching_, flat_, near_;
-  FixedVector<Plane, 24> planes_;
-  FixedVector<Wall, 16> walls_;
-  CoarsePlanes<Scalar, 24> coarse_;
+  FixedVector<Plane, most_planes> planes_;
+  FixedVector<Wall, most_walls> walls_;
+  CoarsePlanes<Scalar, most_planes> coarse_;
 };
 
 }  // namespace feeler

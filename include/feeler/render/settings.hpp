@@ -47,7 +47,7 @@ struct Settings {
   /// Work a tick, in units of one distance query between the tool and a triangle, or one optimisation (with all that goes with it, about 0.7 µs
   /// for 32 vertices). When not enough is left for another iteration the tick ends on the certified pose it has. Less bounds the
   /// worst tick, and lets the tool lag behind where the solution jumps. While it is not enough to move the tool at all, up to some seventeen times as much.
-  int work_budget = 95;
+  int work_budget = 92;
 };
 
 }  // namespace feeler
