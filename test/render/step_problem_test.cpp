@@ -115,8 +115,8 @@ BOOST_AUTO_TEST_CASE(with_the_forces_of_the_last_step_steps_converge_quadratical
       problem.bend(metric, graphic_from_haptic, 0.0);
     } else {
       const Problem::Guess guess = problem.bend_again(metric, graphic_from_haptic, 0.0);
-      BOOST_TEST_REQUIRE((guess == (steps == 1 ? Problem::Guess::near : Problem::Guess::right)));  // the first step is long, and the force becomes another
-      if (guess == Problem::Guess::near) problem.bend(metric, graphic_from_haptic, 0.0);
+      BOOST_TEST_REQUIRE((guess == (steps == 1 ? Problem::Guess::close : Problem::Guess::right)));  // the first step is long, and the force becomes another
+      if (guess == Problem::Guess::close) problem.bend(metric, graphic_from_haptic, 0.0);
       BOOST_TEST(!problem.is_free());
     }
     point += problem.solution().step.head<3>();
@@ -143,11 +143,11 @@ BOOST_AUTO_TEST_CASE(a_guess_of_the_forces_says_what_it_is_worth) {
   problem.add(wall, {0.0});
   solve(into(-1e-3, 1e-3));
   BOOST_TEST((problem.bend_again(metric, into(-1e-3, 1.1e-3), 0.0) == Guess::right));
-  BOOST_TEST((problem.bend_again(metric, into(-1e-3, 2e-3), 0.0) == Guess::near));  // the force is another
-  BOOST_TEST((problem.bend_again(metric, into(1e-3, 1e-3), 0.0) == Guess::near));  // the wall holds it too
+  BOOST_TEST((problem.bend_again(metric, into(-1e-3, 2e-3), 0.0) == Guess::close));  // the force is another
+  BOOST_TEST((problem.bend_again(metric, into(1e-3, 1e-3), 0.0) == Guess::close));  // the wall holds it too
   problem.bend(metric, into(1e-3, 1e-3), 0.0);
   BOOST_TEST(problem.solution().step.isZero(1e-18));
-  BOOST_TEST((problem.bend_again(metric, into(1e-3, -1e-3), 0.0) == Guess::near));  // the floor does not
+  BOOST_TEST((problem.bend_again(metric, into(1e-3, -1e-3), 0.0) == Guess::close));  // the floor does not
   BOOST_TEST((problem.bend_again(metric, into(-1e-3, -1e-3), 0.0) == Guess::wrong));  // nothing does
   problem.restore(metric, 1e-6);  // whose forces are of another problem
   BOOST_TEST((problem.bend_again(metric, into(1e-3, 1e-3), 0.0) == Guess::right));

@@ -105,8 +105,8 @@ class ContactPatch {
   template <class Visit>
   void visit_continuations(Scalar gap, const Visit& visit) const noexcept {
     if (!has_face_) return;
-    for (const int near : near_) {
-      const Vector vertex = tool_.vertex(near);
+    for (const int i : near_) {
+      const Vector vertex = tool_.vertex(i);
       if (std::abs(gap_above_face(vertex)) > gap) continue;
       for (int k = 0; k < 3; ++k) {
         if (room_inside(k, vertex) >= -seam_) continue;
@@ -203,8 +203,8 @@ class ContactPatch {
     for (const int vertex : near_) add_vertex_on_face(vertex, rows);
   }
   template <int capacity>
-  void add_vertex_on_face(int near, FixedVector<Row, capacity>& rows) const noexcept {
-    const Vector vertex = tool_.vertex(near);
+  void add_vertex_on_face(int tool_vertex, FixedVector<Row, capacity>& rows) const noexcept {
+    const Vector vertex = tool_.vertex(tool_vertex);
     const Scalar gap = gap_above_face(vertex);
     if (std::abs(gap) > largest_gap_) return;
     Scalar room = std::numeric_limits<Scalar>::infinity();

@@ -31,18 +31,18 @@ class Surroundings {
   /// Triangles looked at one by one that count as much work as one distance query.
   static constexpr int triangles_per_work = 8;
 
-  /// @param near  what is farther is of no interest [m]
-  Surroundings(const TriangleMesh<MeshScalar>& mesh, const MovingTool<Tool>& moving, const Clearance<Scalar>& clearance, Scalar near) noexcept
-      : mesh_(mesh), moving_(moving), start_(moving.frame_at_start()), touching_(clearance.touching), flat_(clearance.none()), near_(near) {
+  /// @param within  what is farther is of no interest [m]
+  Surroundings(const TriangleMesh<MeshScalar>& mesh, const MovingTool<Tool>& moving, const Clearance<Scalar>& clearance, Scalar within) noexcept
+      : mesh_(mesh), moving_(moving), start_(moving.frame_at_start()), touching_(clearance.touching), flat_(clearance.none()), within_(within) {
     coarse_.begin(moving.origin() - mesh.bvh().origin().template cast<Scalar>(), Scalar(mesh.bounds().diagonal().norm()));
     for (int axis = 0; axis < 3; ++axis) {
       const Scalar lower = moving.lowest_along_axis(axis, Scalar(1), start_), upper = -moving.lowest_along_axis(axis, Scalar(-1), start_);
-      coarse_.set_sides(axis, lower - near, upper + near);
+      coarse_.set_sides(axis, lower - within, upper + within);
     }
   }
 
   /// A world normal along which much may be far from the tool.
-  void add_normal(const Vector& normal) noexcept { pass_below(normal, moving_.lowest(normal, start_) - near_); }
+  void add_normal(const Vector& normal) noexcept { pass_below(normal, moving_.lowest(normal, start_) - within_); }
   /// A triangle that is known, and the world normal along which it is near: what does not stand out of its wall is hidden.
   /// @param corners  a column each, relative to `MovingTool::origin()` [m]
   /// @param holds    the tool
@@ -55,7 +55,7 @@ class Surroundings {
         return;
       }
       wall = &walls_.back();
-      pass_below(normal, std::max(height - flat_, moving_.lowest(normal, start_) - near_));
+      pass_below(normal, std::max(height - flat_, moving_.lowest(normal, start_) - within_));
     }
     wall->holds = wall->holds || holds;
     for (End& end : wall->ends) end.reach = std::max(end.reach, reach_of(corners, end.towards));
@@ -77,7 +77,7 @@ class Surroundings {
       const auto closest = gjk(moving_.tool(), moving_.in_tool(corners, start_), {}, touching_);
       if (closest.is_touching || closest.distance < flat_) return false;
       const Vector normal = start_.rotation * closest.normal;
-      if (closest.distance < near_) {
+      if (closest.distance < within_) {
         found(triangle);
         add_known(corners, normal, false);
       } else {
@@ -157,7 +157,7 @@ class Surroundings {
   void note_end(Wall& wall, int triangle, const Matrix3<Scalar>& corners) const noexcept {
     for (End& end : wall.ends) {
       const Scalar reach = reach_of(corners, end.towards);
-      if (!(reach > end.reach + near_)) continue;
+      if (!(reach > end.reach + within_)) continue;
       end.reach = reach;
       end.triangle = triangle;
     }
@@ -179,7 +179,7 @@ class Surroundings {
   const TriangleMesh<MeshScalar>& mesh_;
   const MovingTool<Tool>& moving_;
   MotionFrame<Scalar> start_;
-  Scalar touching_, flat_, near_;
+  Scalar touching_, flat_, within_;
   FixedVector<Plane, most_planes> planes_;
   FixedVector<Wall, most_walls> walls_;
   CoarsePlanes<Scalar, most_planes> coarse_;

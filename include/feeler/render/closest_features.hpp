@@ -335,7 +335,7 @@ class ClosestFeaturesFollower {
     if (guess == Guess::none) return false;
     ++tick.work;
     if (guess == Guess::wrong || linearisation_.add_crossed(scene, trusted_step(scene, pose), tick)) return false;
-    if (guess == Guess::near) bend(scene, off, tick);
+    if (guess == Guess::close) bend(scene, off, tick);
     return true;
   }
 

@@ -38,14 +38,14 @@ class MotionCertificate {
   /// @param from    pose of the reference point
   /// @param work    grows by the work done
   /// @param limit   value of `work` at which it gives up
-  /// @param pairs   what is known near the tool at `from`: looked at first, and exactly, but for those beyond `far` [m]
+  /// @param pairs   what is known near the tool at `from`: looked at first, and exactly, but for those beyond `reach` [m]
   template <int pair_capacity = 1>
   SweepResult<Scalar> certify(const Scene& scene, const Pose<Scalar>& from, const Twist<Scalar>& motion, int& work, int limit,
-                              const WorkingSet<Scalar, pair_capacity>& pairs = {}, Scalar far = std::numeric_limits<Scalar>::infinity()) noexcept {
+                              const WorkingSet<Scalar, pair_capacity>& pairs = {}, Scalar reach = std::numeric_limits<Scalar>::infinity()) noexcept {
     const Scalar turn = motion.angular.norm();
     Scalar until = turn > longest_turn ? longest_turn / turn : Scalar(1);
     if constexpr (!CompoundShape<ToolType>) {
-      return certify_piece(0, scene, scene.moving(0, from, motion), work, limit, pairs, far, until, std::numeric_limits<Scalar>::infinity());
+      return certify_piece(0, scene, scene.moving(0, from, motion), work, limit, pairs, reach, until, std::numeric_limits<Scalar>::infinity());
     } else {
       const auto is_near = find_near_pieces(scene, from, motion, work, limit);
       SweepResult<Scalar> result;
@@ -54,7 +54,7 @@ class MotionCertificate {
       for (int piece = 0; piece < scene.piece_count(); ++piece) {
         if (!is_near[std::size_t(piece)]) continue;
         const MovingTool<Piece> moving = scene.moving(piece, from, motion);
-        const auto passed = certify_piece(piece, scene, moving, work, limit, pairs, far, until, first_blocked);
+        const auto passed = certify_piece(piece, scene, moving, work, limit, pairs, reach, until, first_blocked);
         for (Blocker<Scalar> blocker : passed.blockers) {
           blocker.piece = piece;
           first_blocked = std::min(first_blocked, blocker.time);
@@ -125,7 +125,7 @@ class MotionCertificate {
   /// As `certify`, for one piece and the times up to `until`; of those before it one is blocked at `first_blocked`.
   template <int pair_capacity>
   SweepResult<Scalar> certify_piece(int piece, const Scene& scene, const MovingTool<Piece>& moving, int& work, int limit,
-                                    const WorkingSet<Scalar, pair_capacity>& pairs, Scalar far, Scalar until,
+                                    const WorkingSet<Scalar, pair_capacity>& pairs, Scalar reach, Scalar until,
                                     Scalar first_blocked) noexcept {
     Clearance<Scalar> clearance = scene.clearance_for(moving);
     // A ball that slides in a fit comes as near to the next triangle of a wall as it is to this one. What to keep is safe to judge by the
@@ -139,7 +139,7 @@ class MotionCertificate {
     FixedVector<KnownTriangle<Scalar>, pair_capacity> known;
     for (int i = 0; i < pairs.size(); ++i) {
       const auto& pair = pairs[i];
-      if (pair.piece != piece || pair.is_beyond(far)) continue;
+      if (pair.piece != piece || pair.is_beyond(reach)) continue;
       known.push_back({pair.triangle, {pair.corners_world.colwise() - moving.origin(), pair.normal, pair.features, true, pair.last_normal}, pair.slack < clearance.none()});
     }
     return Sweep<Piece, Order>(planes_[std::size_t(piece)], clearance)

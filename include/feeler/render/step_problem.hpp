@@ -141,7 +141,7 @@ class StepProblem {
   enum class Guess {
     none,   ///< no contact held the tool, or one that did is gone: nothing was solved
     wrong,  ///< no contact holds it now, or not all rows can have the margin: to be projected
-    near,   ///< as good as a projection, as other contacts hold it, or with other forces: to be bent
+    close,  ///< as good as a projection, as other contacts hold it, or with other forces: to be bent
     right,  ///< the step is what `bend` would find
   };
   /// Both at once, with the forces of the last step in place of those of a projection (sequential quadratic programming).
@@ -151,7 +151,7 @@ class StepProblem {
     set_lagrangian(metric, graphic_from_haptic);
     if (solve_from(WarmStart(projection_)) != QpStatus::optimal || solution_.active.empty()) return Guess::wrong;
     is_free_ = false;
-    if (!has_forces_like(projection_)) return Guess::near;
+    if (!has_forces_like(projection_)) return Guess::close;
     remember_forces();
     return Guess::right;
   }

@@ -168,13 +168,13 @@ class Quickhull {
   /// Looks again at the points that were left out for being near: at a sharp edge, a later face may have
   /// turned away from one.
   bool return_near_points() {
-    const std::vector<int> near = std::move(near_);
+    const std::vector<int> nearby = std::move(near_);
     near_.clear();
-    if (near.empty()) return false;
+    if (nearby.empty()) return false;
     std::vector<int> alive;
     for (std::size_t f = 0; f < faces_.size(); ++f)
       if (faces_[f].is_alive) alive.push_back(int(f));
-    for (const int point : near) {
+    for (const int point : nearby) {
       for (const int f : alive) {
         const LatticePlane& plane = faces_[std::size_t(f)].triangle.plane;
         if (!(plane.height(points_[std::size_t(point)]) > tolerance_)) continue;
