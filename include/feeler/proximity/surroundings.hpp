@@ -42,7 +42,7 @@ class Surroundings {
   }
 
   /// A world normal along which much may be far from the tool.
-  void add_normal(const Vector& normal) noexcept { pass_below(normal, moving_.lowest(normal, start_) - within_); }
+  void add_normal(const Vector& normal) noexcept { pass_below(normal, limit_along(normal)); }
   /// A triangle that is known, and the world normal along which it is near: what does not stand out of its wall is hidden.
   /// @param corners  a column each, relative to `MovingTool::origin()` [m]
   /// @param holds    the tool
@@ -50,15 +50,15 @@ class Surroundings {
     const Scalar height = highest_corner(corners, normal);
     auto wall = std::find_if(walls_.begin(), walls_.end(), [&](const Wall& w) { return std::abs(w.height - height) < flat_ && is_same(w.normal, normal); });
     if (wall == walls_.end()) {
-      if (!walls_.push_back(Wall(normal, height, longest_side(corners)))) {
+      if (!walls_.push_back(wall_of(normal, height, longest_side(corners)))) {
         pass_below(normal, height + flat_);
         return;
       }
       wall = &walls_.back();
-      pass_below(normal, std::max(height - flat_, moving_.lowest(normal, start_) - within_));
+      pass_below(normal, std::max(height - flat_, limit_along(normal)));
     }
     wall->holds = wall->holds || holds;
-    for (End& end : wall->ends) end.reach = std::max(end.reach, reach_of(corners, end.towards));
+    for (End& end : wall->ends) end.reach = std::max(end.reach, end.reach_of(corners));
   }
 
   /// Calls `found(triangle)` for them. It gives up where one touches: where there is no clearance all of a fit does.
@@ -105,25 +105,19 @@ class Surroundings {
   };
   /// A corner of the part of a wall that the tool is over.
   struct End {
-    Vector towards = Vector::Zero();                           // along the wall
-    Scalar reach = -std::numeric_limits<Scalar>::infinity();   // of the farthest triangle so far
-    int triangle = -1;                                         // that one, or none if it is known
+    Vector towards = Vector::Zero();                          // along the wall
+    Scalar limit = Scalar(0);                                 // how far the tool reaches
+    Scalar reach = -std::numeric_limits<Scalar>::infinity();  // of the farthest triangle so far
+    int triangle = -1;                                        // that one, or none if it is known
+
+    /// How far a triangle reaches, as far as the tool does.
+    Scalar reach_of(const Matrix3<Scalar>& corners) const noexcept { return std::min(highest_corner(corners, towards), limit); }
   };
   struct Wall {
     Vector normal = Vector::Zero();
     Scalar height = Scalar(0);  // along it
     bool holds = false;         // the tool
-    std::array<End, 4> ends;
-
-    Wall() = default;
-    /// @param side  a vector along the wall: its ends are looked for along the diagonals of a rectangle with that side
-    Wall(const Vector& n, Scalar h, const Vector& side) noexcept : normal(n), height(h) {
-      const Vector along = (side - n.dot(side) * n).normalized(), across = n.cross(along);
-      ends[0].towards = along + across;
-      ends[1].towards = along - across;
-      ends[2].towards = across - along;
-      ends[3].towards = -along - across;
-    }
+    std::array<End, 4> ends{};
   };
 
   static bool is_same(const Vector& a, const Vector& b) noexcept {
@@ -140,9 +134,19 @@ class Surroundings {
     return longest;
   }
 
-  /// How far a triangle reaches in a direction, as far as the tool does.
-  Scalar reach_of(const Matrix3<Scalar>& corners, const Vector& direction) const noexcept {
-    return std::min(highest_corner(corners, direction), -moving_.lowest(-direction, start_));
+  /// What is no higher along a normal is far from the tool.
+  Scalar limit_along(const Vector& normal) const noexcept { return moving_.lowest(normal, start_) - within_; }
+
+  /// @param side  a vector along the wall: its ends are looked for along the diagonals of a rectangle with that side
+  Wall wall_of(const Vector& normal, Scalar height, const Vector& side) const noexcept {
+    const Vector along = (side - normal.dot(side) * normal).normalized(), across = normal.cross(along);
+    Wall wall{normal, height};
+    wall.ends[0].towards = along + across;
+    wall.ends[1].towards = along - across;
+    wall.ends[2].towards = across - along;
+    wall.ends[3].towards = -along - across;
+    for (End& end : wall.ends) end.limit = -moving_.lowest(-end.towards, start_);
+    return wall;
   }
 
   /// Whether a triangle does not stand out of a wall that is known; one that lies in it may be at an end.
@@ -156,7 +160,7 @@ class Surroundings {
   }
   void note_end(Wall& wall, int triangle, const Matrix3<Scalar>& corners) const noexcept {
     for (End& end : wall.ends) {
-      const Scalar reach = reach_of(corners, end.towards);
+      const Scalar reach = end.reach_of(corners);
       if (!(reach > end.reach + within_)) continue;
       end.reach = reach;
       end.triangle = triangle;

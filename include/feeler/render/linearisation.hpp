@@ -187,9 +187,7 @@ class Linearisation {
   /// Takes in a pair that is near at a certified pose, though it blocked no motion.
   void discover(const Scene& scene, const Pose<Scalar>& pose, int piece, int triangle, Tick<MeshScalar>& tick) noexcept {
     if (pairs_.full() || pairs_.find(piece, triangle) >= 0) return;
-    Pair& pair = take_in(scene, piece, triangle, {});
-    const Matrix3<Scalar> axes = pose.rotation.toRotationMatrix();
-    query(scene, pair, scene.in_tool(pair.corners_world, pose, axes), axes, true, tick);
+    take_in_measured(scene, pose, piece, triangle, {}, tick);
   }
 
   /// Takes what blocked a motion into the working set; false when another linearisation would find no more than the last, as all of it was
@@ -436,9 +434,13 @@ class Linearisation {
   }
   /// The same on the way of a motion, with the plane that the pair had where that starts.
   Pair& take_in_as_at_start(const Scene& scene, int piece, int triangle, WitnessFeatures features, Tick<MeshScalar>& tick) noexcept {
+    return take_in_measured(scene, start_, piece, triangle, features, tick);
+  }
+  /// The same with the plane that the pair has at a certified pose.
+  Pair& take_in_measured(const Scene& scene, const Pose<Scalar>& pose, int piece, int triangle, WitnessFeatures features, Tick<MeshScalar>& tick) noexcept {
     Pair& pair = take_in(scene, piece, triangle, features);
-    const Matrix3<Scalar> axes = start_.rotation.toRotationMatrix();
-    query(scene, pair, scene.in_tool(pair.corners_world, start_, axes), axes, true, tick);
+    const Matrix3<Scalar> axes = pose.rotation.toRotationMatrix();
+    query(scene, pair, scene.in_tool(pair.corners_world, pose, axes), axes, true, tick);
     return pair;
   }
 

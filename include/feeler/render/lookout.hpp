@@ -2,7 +2,6 @@
 #pragma once
 
 #include <algorithm>
-#include <utility>
 
 #include "feeler/core/scalar.hpp"
 #include "feeler/proximity/surroundings.hpp"
@@ -30,8 +29,8 @@ class Lookout {
             Tick<typename RenderedScene<ToolType>::MeshScalar>& tick) noexcept {
     using Scalar = typename RenderedScene<ToolType>::Scalar;
     if (scene.piece_count() == 1) return;  // it brings the neighbours of what touches at once
-    const auto& pairs = std::as_const(linearisation).pairs();
-    const auto& problem = std::as_const(linearisation).problem();
+    const auto& pairs = linearisation.pairs();
+    const auto& problem = linearisation.problem();
     // Without clearance all walls touch, and the certificate tells which of them hold.
     const Scalar none = scene.clearance().none();
     if (std::any_of(pairs.begin(), pairs.end(), [none](const auto& pair) { return pair.slack < none; })) return;
