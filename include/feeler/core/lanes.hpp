@@ -156,14 +156,19 @@ inline Lanes<LaneBits<Scalar>, lanes> first_lanes(int count) noexcept {
 
 /// The group with another number in one lane; unchanged where there is no such lane.
 ///
-/// A number that is written alone and read in a group soon after makes processors wait.
+/// A number that is written alone and read in a group soon after makes processors wait; so does a group of which some lanes are written, as
+/// compilers like to do where registers have masks.
 template <class Scalar, int lanes>
 inline Lanes<Scalar, lanes> with_lane(const Lanes<Scalar, lanes>& group, int lane,
                                       const Scalar& value) noexcept {
   if constexpr (lanes == 1) {
     return lane == 0 ? value : group;
   } else {
-    return only_lane<Scalar, lanes>(lane) ? spread<Lanes<Scalar, lanes>>(value) : group;
+    Lanes<Scalar, lanes> changed = only_lane<Scalar, lanes>(lane) ? spread<Lanes<Scalar, lanes>>(value) : group;
+#if defined(__GNUC__) && defined(__AVX__)  // all lanes are written
+    if constexpr (sizeof(changed) <= std::size_t(vector_bytes)) __asm__("" : "+v"(changed));
+#endif
+    return changed;
   }
 }
 
@@ -205,6 +210,24 @@ constexpr bool is_register_of_float = false;
 template <class Group>
   requires(!std::is_arithmetic_v<Group> && sizeof(Group) <= std::size_t(vector_bytes)) && requires(Group g) { requires sizeof(g[0]) == sizeof(float); }
 constexpr bool is_register_of_float<Group> = true;
+
+/// Whether a comparison of groups holds in every lane.
+template <class Scalar, int lanes, class Comparison>
+inline bool in_all_lanes(const Comparison& comparison) noexcept {
+  if constexpr (lanes == 1) {
+    return comparison;
+  } else {
+    Lanes<LaneBits<Scalar>, lanes> bits = comparison;
+    const auto fold = [&]<int half, int... i>(std::integral_constant<int, half>, std::integer_sequence<int, i...>) {
+      bits &= Lanes<LaneBits<Scalar>, lanes>{bits[i ^ half]...};
+    };
+    constexpr std::make_integer_sequence<int, lanes> all{};
+    if constexpr (lanes > 4) fold(std::integral_constant<int, 4>{}, all);
+    if constexpr (lanes > 2) fold(std::integral_constant<int, 2>{}, all);
+    fold(std::integral_constant<int, 1>{}, all);
+    return bits[0] != 0;
+  }
+}
 
 /// a·b, rounded before anything is added to it.
 ///

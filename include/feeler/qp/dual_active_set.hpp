@@ -18,7 +18,9 @@
 #include "feeler/qp/row_scan.hpp"
 #include "feeler/qp/six.hpp"
 #include "feeler/qp/solution.hpp"
+#include "feeler/qp/table_by_columns.hpp"
 #include "feeler/qp/warm_start.hpp"
+#include "feeler/qp/whole_table.hpp"
 
 namespace feeler {
 
@@ -31,8 +33,8 @@ namespace feeler {
 /// answer is optimal once a fresh look at all rows and at the gradient agrees, and infeasible once rows in
 /// conflict cancel; where rounding prevents both, everything is done again with operators from an orthogonal
 /// factor. Where the rows to start from are the active ones, or the only row there is, the same look confirms the
-/// minimum on them (`detail::HeldMinimum`), and no operator is made; nor where there are few rows, of which a table
-/// tells which are active (`detail::DualTableau`), unless one all but depends on others.
+/// minimum on them (`detail::HeldMinimum`), and no operator is made; nor where there are not many rows, of which a table
+/// tells which are active, or which contradict each other (`detail::DualTableau`).
 ///
 /// Rows are met to `tolerance` [m]. Rows that make an angle below about 1e-8 rad with the span of the active
 /// ones count as dependent. The same input gives the same bits, with every number of lanes and,
@@ -73,9 +75,11 @@ class DualActiveSet {
     if ((!known->rows.empty() || problem.row_count == 0) && guess_.find(problem, bounds_, *known, inverse_, gradient_) &&
         is_right(problem, *known, 1, solution))
       return QpStatus::optimal;
-    if (problem.row_count <= Tableau::row_capacity) {
-      if (is_solved_by_table(problem, solution)) return QpStatus::optimal;
-      known = &tableau_.active();
+    if (problem.row_count <= SomeRows::row_capacity) {
+      const bool is_few = problem.row_count <= FewRows::row_capacity;
+      const Outcome outcome = is_few ? solve_by_table(few_, problem, solution) : solve_by_table(some_, problem, solution);
+      if (outcome != Outcome::in_doubt) return outcome == Outcome::optimal ? QpStatus::optimal : QpStatus::infeasible;
+      known = is_few ? &few_.active() : &some_.active();
     }
     inverse_.invert();
     Outcome outcome = run(problem, *known, solution);
@@ -94,7 +98,9 @@ class DualActiveSet {
  private:
   using Six = detail::Six<Scalar>;
   using Operators = detail::ActiveOperators<Scalar, lanes>;
-  using Tableau = detail::DualTableau<Scalar, lanes>;
+  static constexpr int table_lanes = std::min(lanes, 4);  // more make a few rows no quicker
+  using FewRows = detail::DualTableau<Scalar, table_lanes, detail::WholeTable<Scalar, table_lanes>>;
+  using SomeRows = detail::DualTableau<Scalar, table_lanes, detail::TableByColumns<Scalar, table_lanes>>;
 
   enum class Outcome { optimal, infeasible, in_doubt };
   enum class Entry { done, refused, infeasible, in_doubt };
@@ -115,16 +121,37 @@ class DualActiveSet {
     return true;
   }
 
-  /// Whether a table finds the active rows of a problem of few rows, and their minimum is its own.
+  /// Has a table find the active rows of a problem of some rows, or rows that contradict each other, and looks at them afresh.
+  template <class Tableau>
   [[gnu::noinline]]
-  bool is_solved_by_table(const Problem& problem, Solution& solution) noexcept {
+  Outcome solve_by_table(Tableau& tableau, const Problem& problem, Solution& solution) noexcept {
     constexpr int most_refinements = 2;
-    if (!tableau_.find(problem, bounds_, inverse_, gradient_, accepted_)) return false;
-    const WarmStart& active = tableau_.active();
-    Scalar lacking = guess_.place(problem, bounds_, active, tableau_.multipliers(), inverse_, gradient_);
+    const bool is_found = tableau.find(problem, bounds_, inverse_, gradient_, accepted_);
+    if (!is_found && tableau.refused() < 0) return Outcome::in_doubt;
+    const WarmStart& active = tableau.active();
+    Scalar lacking = guess_.place(problem, bounds_, active, tableau.multipliers(), inverse_, gradient_);
     for (int i = 0; i < most_refinements && lacking > accepted_ / 2; ++i)
-      lacking = guess_.shift(bounds_, active, tableau_.change_for(guess_.lacking()), inverse_);
-    return is_right(problem, active, 1 + tableau_.steps(), solution);
+      lacking = guess_.shift(bounds_, active, tableau.change_for(guess_.lacking()), inverse_);
+    if (is_found) return is_right(problem, active, 1 + tableau.steps(), solution) ? Outcome::optimal : Outcome::in_doubt;
+    return is_contradicted(tableau, problem, solution) ? Outcome::infeasible : Outcome::in_doubt;
+  }
+
+  /// Whether the row that a table refuses contradicts the active ones.
+  template <class Tableau>
+  [[gnu::noinline]]
+  bool is_contradicted(const Tableau& tableau, const Problem& problem, Solution& solution) noexcept {
+    using std::isfinite;
+    const Six a = row_of(problem, tableau.refused());
+    const auto& rows = tableau.active().rows;
+    Six rest = a;
+    const auto normal_of = [this](int i) -> const Six& { return guess_.normal(i); };
+    for (int i = 0; i < rows.size(); ++i) detail::subtract(normal_of(i), tableau.shares()[index(i)], rest);
+    if (!isfinite(detail::size_of(guess_.x())) || detail::size_of(rest) > allowed_rest(a)) return false;
+    if (!is_conflict(tableau.refused(), a, rest, true, guess_.x(), rows.begin(), rows.size(), normal_of, tableau.shares(), solution)) return false;
+    std::copy_n(guess_.x().begin(), 6, solution.step.data());
+    for (int i = 0; i < rows.size(); ++i) solution.active.push_back({rows[i], guess_.multipliers()[index(i)]});
+    solution.iterations = tableau.steps();
+    return true;
   }
 
   /// Starts again with operators from an orthogonal factor, and uses up most of the tolerance, so that rows
@@ -237,12 +264,12 @@ class DualActiveSet {
     if (!(slope > dependent_angle_ * dependent_angle_ * whole)) return true;
     const Scalar clear = Scalar(1e-12);
     if (!is_careful_ || slope > clear * whole) return false;
-    return violation / slope * detail::largest_of(operators_.image().step) > far_away(a, violation);
+    return violation / slope * detail::largest_of(operators_.image().step) > far_away(a, x_, violation);
   }
 
   /// A length that no step to a row that lacks `violation` has, in all reason.
-  Scalar far_away(const Six& a, const Scalar& violation) const noexcept {
-    return Scalar(1e6) * (detail::largest_of(x_) + violation / detail::size_of(a));
+  static Scalar far_away(const Six& a, const Six& x, const Scalar& violation) noexcept {
+    return Scalar(1e6) * (detail::largest_of(x) + violation / detail::size_of(a));
   }
 
   /// a·H⁻¹·a, to all digits.
@@ -367,7 +394,7 @@ class DualActiveSet {
           leaving = i;
         }
       }
-      if (has_no_step && leaving < 0) return conclude_conflict(row, a, violation, solution);
+      if (has_no_step && leaving < 0) return conclude_conflict(row, a, solution);
 
       const Scalar full_step = has_no_step ? infinity : Scalar(violation / slope);
       const bool is_full = full_step <= dual_step;
@@ -398,12 +425,7 @@ class DualActiveSet {
 
   /// No step meets row p, as it is a sum of active ones with negative shares: then these rows contradict each
   /// other.
-  ///
-  /// That is in doubt where the sum leaves a rest that a step could use, or where all of them together agree within their
-  /// tolerances.
-  Entry conclude_conflict(int p, const Six& a, Scalar violation, Solution& solution) noexcept {
-    const Scalar allowed_rest =
-        std::max(Scalar(1e-12), Scalar(64 * std::numeric_limits<Scalar>::epsilon())) * detail::size_of(a);
+  Entry conclude_conflict(int p, const Six& a, Solution& solution) noexcept {
     Six shares{}, rest = a;
     bool is_sum = false;
     for (int round = 0; round < 2 && !is_sum; ++round) {  // what rounding left of it is in the span as well
@@ -414,27 +436,44 @@ class DualActiveSet {
         share = std::min(Scalar(share + operators_.image().share[index(i)]), Scalar(0));
         detail::subtract(operators_.normal(i), share, rest);
       }
-      is_sum = !(detail::size_of(rest) > allowed_rest);
+      is_sum = !(detail::size_of(rest) > allowed_rest(a));
     }
-    const Scalar rounding = detail::rounding_at(x_);
+    const auto normal_of = [this](int i) -> const Six& { return operators_.normal(i); };
+    return is_conflict(p, a, rest, is_sum, x_, slots_.begin(), operators_.used(), normal_of, shares, solution) ? Entry::infeasible : Entry::in_doubt;
+  }
+
+  /// What rounding leaves of a row that is a sum of others.
+  static Scalar allowed_rest(const Six& a) noexcept {
+    return std::max(Scalar(1e-12), Scalar(64 * std::numeric_limits<Scalar>::epsilon())) * detail::size_of(a);
+  }
+
+  /// Whether row p and active rows, whose sum it is but for a rest, contradict each other; then they are the conflict of the solution.
+  ///
+  /// They do not where a step could use the rest, or where all of them together agree within their tolerances.
+  /// @param rows    active at x, `count` of them
+  /// @param shares  of each in row p, none positive
+  template <class Rows, class NormalOf>
+  bool is_conflict(int p, const Six& a, const Six& rest, bool is_sum, const Six& x, Rows rows, int count, const NormalOf& normal_of, const Six& shares,
+                   Solution& solution) const noexcept {
+    const Scalar rounding = detail::rounding_at(x);
     const auto allowed = [&](const Six& row) {
       return is_careful_ ? Scalar(0) : Scalar(tolerance + detail::product(rounding, detail::size_of(row)));
     };
-    Scalar slack = allowed(a);
-    for (int i = 0; i < operators_.used(); ++i) {
-      const Six& normal = operators_.normal(i);
+    Scalar slack = allowed(a), violation = bounds_[p] - detail::dot(a, x);
+    for (int i = 0; i < count; ++i) {
+      const Six& normal = normal_of(i);
       slack -= detail::product(shares[index(i)], allowed(normal));
-      const Scalar drift = bounds_[slots_[index(i)]] - detail::dot(normal, x_);  // of x off this row
+      const Scalar drift = bounds_[rows[i]] - detail::dot(normal, x);  // of x off this row
       violation -= detail::product(shares[index(i)], drift);
     }
     // A step some times as long as this one could use the rest; where that is more than rounding leaves, a far longer one.
-    const Scalar reach = is_sum || is_careful_ ? Scalar(16 * detail::largest_of(x_)) : far_away(a, violation);
-    if (!(violation > slack + detail::size_of(rest) * reach)) return Entry::in_doubt;
+    const Scalar reach = is_sum || is_careful_ ? Scalar(16 * detail::largest_of(x)) : far_away(a, x, violation);
+    if (!(violation > slack + detail::size_of(rest) * reach)) return false;
     solution.conflict.push_back(p);
-    for (int i = 0; i < operators_.used(); ++i) {
-      if (shares[index(i)] < -Scalar(1e-9)) solution.conflict.push_back(slots_[index(i)]);
+    for (int i = 0; i < count; ++i) {
+      if (shares[index(i)] < -Scalar(1e-9)) solution.conflict.push_back(rows[i]);
     }
-    return Entry::infeasible;
+    return true;
   }
 
   /// A step along P·a, and what it does to the multipliers.
@@ -482,7 +521,8 @@ class DualActiveSet {
 
   detail::InverseHessian<Scalar> inverse_;
   detail::HeldMinimum<Scalar> guess_;
-  Tableau tableau_;
+  FewRows few_;
+  SomeRows some_;
   Operators operators_;
   detail::RowScan<Scalar, lanes> scan_;
   const Scalar* bounds_ = nullptr;     // of the rows, and the violation of them that is accepted

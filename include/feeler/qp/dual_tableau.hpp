@@ -1,4 +1,4 @@
-// The active rows of a problem of a few rows, by what the force of each does to every other.
+// The active rows of a problem of some rows, by what the force of each does to every other.
 #pragma once
 
 #include <algorithm>
@@ -16,76 +16,56 @@
 
 namespace feeler::detail {
 
-/// The dual active-set method of Goldfarb and Idnani on the table A·H⁻¹·Aᵀ of up to eight rows A.
+/// The dual active-set method of Goldfarb and Idnani on the table A·H⁻¹·Aᵀ of some rows A.
 ///
 /// An entry of the table is what the force of one row adds to another. Where a row becomes active it is swept: one outer product takes what its
 /// force does from all others, and then the table tells how the forces of the active rows follow that of the next one, and how much every other
-/// row is free to move. A step costs a row of the table and a division, where operators in six dimensions are a chain of sums; but the whole
-/// table has to be made and followed, which pays where rows are few. Source: J. H. Goodnight, "A tutorial on the SWEEP operator", The American
-/// Statistician 33 (1979); forces of active rows are kept in a unit in which the row's own column stays as it is.
+/// row is free to move. A step costs a column of the table and a division, where operators in six dimensions are a chain of sums. Source:
+/// J. H. Goodnight, "A tutorial on the SWEEP operator", The American Statistician 33 (1979); forces of active rows are kept in a unit in which
+/// the row's own column stays as it is.
 ///
 /// Rows are chosen as by `RowScan`, and every lane computed alike, however many there are. Where a row all but depends on active ones, by an angle
-/// below 3e-4 rad, the table has too few digits of it left, and its column is computed afresh; where it depends on them, the table gives up.
-template <RealScalar Scalar, int lanes>
+/// below 3e-4 rad, the table has too few digits of it left, and its column is computed afresh.
+/// @tparam Table  `WholeTable` or `TableByColumns`
+template <RealScalar Scalar, int lanes, class Table>
 class DualTableau {
  public:
-  static constexpr int row_capacity = 8;
+  static constexpr int row_capacity = Table::capacity;
 
   /// Looks for the rows that are active at the minimum; false where it gives up, with rows that are active at the minimum of some of the rows.
   /// @param problem    of at most `row_capacity` rows
   /// @param bounds     of the rows [m]
   /// @param hessian    factored, not inverted
   /// @param tolerance  violation of a row that is accepted [m]
-  bool find(const QpProblem<Scalar>& problem, const Scalar* bounds, const InverseHessian<Scalar>& hessian, const Six<Scalar>& gradient,
-            Scalar tolerance) noexcept {
-    constexpr int most_steps = 3 * row_capacity;
+  [[gnu::always_inline]] inline bool find(const QpProblem<Scalar>& problem, const Scalar* bounds, const InverseHessian<Scalar>& hessian,
+                                          const Six<Scalar>& gradient, Scalar tolerance) noexcept {
     count_ = problem.row_count;
     active_.rows.clear();
     is_behind_ = false;
+    steps_ = 0;
+    refused_ = none;
     int entering = start(problem, bounds, hessian, gradient, tolerance);
-    if (entering >= 0) fill();
-    Scalar multiplier(0);  // of the row that enters
-    for (steps_ = 0; entering >= 0; ++steps_) {
-      const std::size_t row = index(entering);
-      const Values& column = table_[row];
-      if (steps_ == most_steps || active_.rows.full()) return false;
-      const Scalar whole = Scalar(1 / least_share) * least_weight_[row];
-      if (!(weight_[row] > rough() * whole)) measure_again(entering, hessian.inverse_pivots());
-      const Scalar slope = weight_[row];  // known before the row's own column
-      if (!(slope > independent() * whole)) return false;
-      Scalar step = violation_[row] / slope;
-      const int leaving = first_to_leave(column, step);
-      multiplier += step;
-      push(column, step);
-      if (leaving < 0) {
-        const int next = advance(column, step, slope, tolerance);
-        violation_[row] = -std::numeric_limits<Scalar>::infinity();
-        multipliers_[index(active_.rows.size())] = multiplier;
-        units_[index(active_.rows.size())] = Scalar(1) / column[row];
-        active_.rows.push_back(entering);
-        is_behind_ = next < 0;
-        if (!is_behind_) sweep(entering, Scalar(1));
-        entering = next;
-        multiplier = Scalar(0);
-      } else {
-        release(leaving, column, step);
-      }
-    }
-    return true;
+    if (entering >= 0) table_.start(rows_, count_);
+    while (entering >= 0) entering = add(entering, tolerance);
+    return entering == none;
   }
 
   /// After rows were found: the change of their multipliers that moves the tool off each of them by a distance.
   Six<Scalar> change_for(const Six<Scalar>& distances) noexcept {
-    if (is_behind_) sweep(active_.rows.back(), Scalar(1));
+    if (is_behind_) sweep_last();
     is_behind_ = false;
     Six<Scalar> change{};
     for (int k = 0; k < active_.rows.size(); ++k) {  // the table of the active rows is the inverse, negative
-      const Values& column = table_[index(active_.rows[k])];
+      const Values& column = table_.column(rows_, active_.rows[k], other_);
       const Scalar along = product(units_[index(k)], distances[index(k)]);
       for (int i = 0; i < active_.rows.size(); ++i) change[index(i)] -= product(share_of(i, column), along);
     }
     return change;
   }
+
+  /// Where it gave up for want of a step: the row that no step meets, else −1. It is a sum of the active rows, by shares none of which is positive.
+  int refused() const noexcept { return refused_; }
+  const Six<Scalar>& shares() const noexcept { return shares_; }
 
   const WarmStart& active() const noexcept { return active_; }
   /// Of the active rows, none negative.
@@ -94,67 +74,89 @@ class DualTableau {
 
  private:
   using Group = Lanes<Scalar, lanes>;
-  using SixGroups = std::array<Group, 6>;
   using Best = BestRow<Scalar, lanes>;
-  struct alignas(64) Values : std::array<Scalar, std::size_t(row_capacity)> {};  // a number a row
-  static constexpr int groups = row_capacity / lanes;
+  using Values = typename Table::Values;
+  static constexpr bool keeps_inverses = Table::is_whole && lanes >= 4;
+  static constexpr int none = -1, given_up = -2;  // in place of a row
   /// Share of its weight with nothing active that a row has to have left.
   static Scalar independent() noexcept { return dependent_angle<Scalar>() * dependent_angle<Scalar>(); }
   /// Share of which the table has too few digits.
   static Scalar rough() noexcept { return std::max(Scalar(1e-7), Scalar(1024 * std::numeric_limits<Scalar>::epsilon())); }
 
   static std::size_t index(int i) noexcept { return std::size_t(i); }
-  static int whole_groups(int count) noexcept { return (count + lanes - 1) / lanes * lanes; }
-  static Group at(const Values& values, int k) noexcept { return load<Group>(&values[index(k)]); }
-  static void set(Values& values, int k, const Group& group) noexcept { store(&values[index(k)], group); }
+
+  /// One over a row's weight: where the column of a row is at hand, a step waits for nothing else, and it is computed with the weight.
+  Scalar inverse_weight(int row) const noexcept {
+    if constexpr (keeps_inverses) {
+      return inverse_weight_[index(row)];
+    } else {
+      return Scalar(1) / weight_[index(row)];
+    }
+  }
+  void set_weights(int k, const Group& weight) noexcept {
+    weight_.set(k, weight);
+    if constexpr (keeps_inverses) inverse_weight_.set(k, spread<Group>(Scalar(1)) / weight);
+  }
+  void set_weight(int row, const Scalar& weight) noexcept {
+    weight_[index(row)] = weight;
+    if constexpr (keeps_inverses) inverse_weight_[index(row)] = Scalar(1) / weight;
+  }
 
   /// Violations and weights where nothing is active; returns the row to add, or −1.
   int start(const QpProblem<Scalar>& problem, const Scalar* bounds, const InverseHessian<Scalar>& hessian, const Six<Scalar>& gradient,
             Scalar tolerance) noexcept {
-    const Six<Scalar>& d_inverse = hessian.inverse_pivots();
+    rows_.start(problem, hessian);
     const Six<Scalar> home = hessian.solve_lower(gradient);
+    std::array<Group, 6> homes;
+#pragma GCC unroll 6
+    for (std::size_t j = 0; j < 6; ++j) homes[j] = spread<Group>(home[j]);
     Best best;
     for (int k = 0; k < count_; k += lanes) {
-      SixGroups y, scaled, homes;
-#pragma GCC unroll 6
-      for (int j = 0; j < 6; ++j) y[index(j)] = load<Group>(problem.rows.column(j) + k);
-      if (!hessian.is_diagonal()) y = hessian.solve_lower(y);
-#pragma GCC unroll 6
-      for (std::size_t j = 0; j < 6; ++j) {
-        homes[j] = spread<Group>(home[j]);
-        scaled[j] = product(spread<Group>(d_inverse[j]), y[j]);
-        set(lower_[j], k, y[j]);
-        set(scaled_[j], k, scaled[j]);
-      }
+      const auto [y, scaled] = rows_.take(problem, k);
       const Group violation = only_rows<Scalar, lanes>(load<Group>(bounds + k) + dot_of_six<Group>(scaled, homes), count_ - k);
       const Group weight = dot_of_six<Group>(scaled, y), least = spread<Group>(smallest_weight<Scalar>());
-      set(violation_, k, violation);
-      set(weight_, k, weight);
-      set(least_weight_, k, product(spread<Group>(Scalar(least_share)), weight) + least);
+      violation_.set(k, violation);
+      set_weights(k, weight);
+      least_weight_.set(k, product(spread<Group>(Scalar(least_share)), weight) + least);
       best.meet(violation, weight + least, spread<Group>(tolerance));
     }
     return best.row();
   }
 
-  /// The whole table.
-  void fill() noexcept {
-    for (int i = 0; i < count_; ++i) {
-      fill_row(i, [&](std::size_t j) -> const Scalar& { return scaled_[j][index(i)]; });
-      for (int k = whole_groups(count_); k < row_capacity; k += lanes) set(table_[index(i)], k, Group{});
+  /// Makes a row active, whatever leaves for it; returns the row to add next, or `none`, or `given_up`.
+  [[gnu::always_inline]] inline int add(int entering, Scalar tolerance) noexcept {
+    const std::size_t row = index(entering);
+    const Scalar whole = Scalar(1 / least_share) * least_weight_[row];
+    Values* const column = &table_.column(rows_, entering, entering_);
+    for (Scalar multiplier(0); !table_.is_full();) {
+      ++steps_;
+      const bool is_free = !active_.rows.full();
+      if (is_free && !(weight_[row] > rough() * whole)) measure_again(entering, *column);
+      const bool has_step = is_free && weight_[row] > independent() * whole;
+      const Scalar inverse = inverse_weight(entering);
+      Scalar step = has_step ? product(violation_[row], inverse) : std::numeric_limits<Scalar>::infinity();
+      const int leaving = has_step ? first_to_leave(*column, step) : first_of_sum(entering, *column, step);
+      if (leaving < 0 && !has_step) {
+        refuse(entering, *column);
+        return given_up;
+      }
+      multiplier += step;
+      push(*column, step);
+      if (leaving < 0) {
+        const int next = advance(*column, step, inverse, tolerance);
+        violation_[row] = -std::numeric_limits<Scalar>::infinity();
+        multipliers_[index(active_.rows.size())] = multiplier;
+        units_[index(active_.rows.size())] = inverse;
+        active_.rows.push_back(entering);
+        last_column_ = column;
+        is_behind_ = next < 0;
+        if (!is_behind_) sweep_last();
+        return next;
+      }
+      release(leaving, *column, step);
+      table_.follow(entering, *column);
     }
-  }
-  /// @param scaled  of D⁻¹ times what is left of L⁻¹a of the row, number j
-  template <class Scaled>
-  [[gnu::always_inline]] inline void fill_row(int row, const Scaled& scaled) noexcept {
-    SixGroups by;
-#pragma GCC unroll 6
-    for (std::size_t j = 0; j < 6; ++j) by[j] = spread<Group>(scaled(j));
-    for (int k = 0; k < count_; k += lanes) {
-      SixGroups y;
-#pragma GCC unroll 6
-      for (std::size_t j = 0; j < 6; ++j) y[j] = at(lower_[j], k);
-      set(table_[index(row)], k, dot_of_six<Group>(y, by));
-    }
+    return given_up;
   }
 
   /// Column and weight of a row that all but depends on the active ones, by what is left of it beside them.
@@ -162,31 +164,27 @@ class DualTableau {
   /// The table tells how far it is their sum; taken from the row itself twice (W. Kahan, in B. Parlett, "The Symmetric Eigenvalue Problem",
   /// section 6-9) that leaves as many digits of the rest as a scalar has.
   [[gnu::noinline]]
-  void measure_again(int entering, const Six<Scalar>& d_inverse) noexcept {
+  void measure_again(int entering, Values& column) noexcept {
     const int count = active_.rows.size();
-    Values& column = table_[index(entering)];
-    Six<Scalar> rest = row_of(lower_, entering), share{};
+    Six<Scalar> rest = rows_.row(entering), share{}, along{};
     for (int i = 0; i < count; ++i) share[index(i)] = share_of(i, column);
     take(share, rest);
-    Six<Scalar> along{};
-    for (int i = 0; i < count; ++i) along[index(i)] = dot(row_of(scaled_, active_.rows[i]), rest);
+    for (int i = 0; i < count; ++i) along[index(i)] = dot(rows_.scaled(rows_.row(active_.rows[i])), rest);
     const Six<Scalar> change = change_for(along);
     take(change, rest);
-    const Six<Scalar> scaled = multiply(d_inverse, rest);
-    fill_row(entering, [&](std::size_t j) -> const Scalar& { return scaled[j]; });
-    for (int i = 0; i < count; ++i) column[index(active_.rows[i])] = (share[index(i)] + change[index(i)]) / units_[index(i)];
-    weight_[index(entering)] = column[index(entering)] = dot(scaled, rest);
-    for (int k = 0; k < count_; ++k) table_[index(k)][index(entering)] = column[index(k)];
-  }
-  static Six<Scalar> row_of(const std::array<Values, 6>& columns, int row) noexcept {
-    Six<Scalar> numbers;
+    const Six<Scalar> scaled = rows_.scaled(rest);
+    std::array<Group, 6> by;
 #pragma GCC unroll 6
-    for (std::size_t j = 0; j < 6; ++j) numbers[j] = columns[j][index(row)];
-    return numbers;
+    for (std::size_t j = 0; j < 6; ++j) by[j] = spread<Group>(scaled[j]);
+    for (int k = 0; k < count_; k += lanes) column.set(k, dot_of_six<Group>(rows_.at(k), by));
+    for (int i = 0; i < count; ++i) column[index(active_.rows[i])] = (share[index(i)] + change[index(i)]) / units_[index(i)];
+    column[index(entering)] = dot(scaled, rest);
+    set_weight(entering, column[index(entering)]);
+    table_.replace(entering, column);
   }
   /// Takes shares of the active rows from one.
   void take(const Six<Scalar>& shares, Six<Scalar>& rest) const noexcept {
-    for (int i = 0; i < active_.rows.size(); ++i) subtract(row_of(lower_, active_.rows[i]), shares[index(i)], rest);
+    for (int i = 0; i < active_.rows.size(); ++i) subtract(rows_.row(active_.rows[i]), shares[index(i)], rest);
   }
 
   /// The active row, by its place, whose force ends first within a step, which ends there; −1 if none does.
@@ -201,6 +199,20 @@ class DualTableau {
     }
     return leaving;
   }
+  /// The same of active rows whose sum a row is, by shares of which those that rounding makes count as none.
+  int first_of_sum(int entering, const Values& column, Scalar& step) const noexcept {
+    constexpr double rounding = 1e-10;
+    const Scalar least = Scalar(rounding * rounding) * least_weight_[index(entering)];
+    int leaving = -1;
+    for (int i = 0; i < active_.rows.size(); ++i) {
+      const Scalar share = share_of(i, column);
+      if (share > Scalar(0) && product(share, share) * least_weight_[index(active_.rows[i])] > least && multipliers_[index(i)] < step * share) {
+        step = multipliers_[index(i)] / share;
+        leaving = i;
+      }
+    }
+    return leaving;
+  }
   void push(const Values& column, Scalar step) noexcept {
     for (int i = 0; i < active_.rows.size(); ++i)
       multipliers_[index(i)] = std::max(Scalar(0), multipliers_[index(i)] - product(step, share_of(i, column)));
@@ -208,71 +220,59 @@ class DualTableau {
   Scalar share_of(int i, const Values& column) const noexcept { return product(column[index(active_.rows[i])], units_[index(i)]); }
 
   /// Violations after a step, weights after its row is active, and the row to add next, or −1.
-  int advance(const Values& column, Scalar length, Scalar slope, Scalar tolerance) noexcept {
-    const Group step = spread<Group>(length), factor = spread<Group>(Scalar(1) / slope);
+  /// @param inverse  of the row's weight
+  int advance(const Values& column, Scalar length, Scalar inverse, Scalar tolerance) noexcept {
+    const Group step = spread<Group>(length), factor = spread<Group>(inverse);
     Best best;
     for (int k = 0; k < count_; k += lanes) {
-      const Group c = at(column, k);
-      const Group violation = at(violation_, k) - product(step, c);
-      const Group weight = at(weight_, k) - product(product(factor, c), c);
-      set(violation_, k, violation);
-      set(weight_, k, weight);
-      best.meet(violation, greater(weight, at(least_weight_, k)), spread<Group>(tolerance));
+      const Group c = column.at(k);
+      const Group violation = violation_.at(k) - product(step, c);
+      const Group weight = weight_.at(k) - product(product(factor, c), c);
+      violation_.set(k, violation);
+      set_weights(k, weight);
+      best.meet(violation, greater(weight, least_weight_.at(k)), spread<Group>(tolerance));
     }
     return best.row();
   }
+  /// No step meets a row, and no force that ends makes one.
+  void refuse(int row, const Values& column) noexcept {
+    refused_ = row;
+    for (int i = 0; i < active_.rows.size(); ++i) shares_[index(i)] = std::min(Scalar(0), share_of(i, column));
+  }
+  /// Brings the table up to the row that became active last.
+  void sweep_last() noexcept {
+    table_.sweep(active_.rows.back(), *last_column_, units_[index(active_.rows.size() - 1)], Scalar(1));
+  }
 
   /// Ends the force of an active row after a step that another one ends.
+  [[gnu::noinline]]
   void release(int leaving, const Values& column, Scalar length) noexcept {
     const int row = active_.rows[leaving];
-    const Values& own = table_[index(row)];
-    const Scalar pivot = own[index(row)], unit = units_[index(leaving)];
-    const Group step = spread<Group>(length), factor = spread<Group>(Scalar(1) / pivot);
+    Values& own = table_.column(rows_, row, other_);
+    const Scalar pivot = own[index(row)], inverse = Scalar(1) / pivot, scale = Scalar(-1) / product(units_[index(leaving)], pivot);
+    const Group step = spread<Group>(length), factor = spread<Group>(inverse);
     for (int k = 0; k < count_; k += lanes) {
-      const Group c = at(own, k);
-      set(violation_, k, at(violation_, k) - product(step, at(column, k)));
-      set(weight_, k, at(weight_, k) - product(product(factor, c), c));
+      const Group c = own.at(k);
+      violation_.set(k, violation_.at(k) - product(step, column.at(k)));
+      set_weights(k, Group(weight_.at(k) - product(product(factor, c), c)));
     }
-    sweep(row, Scalar(-1) / product(unit, pivot));
+    table_.sweep(row, own, inverse, scale);
     violation_[index(row)] = Scalar(0);
-    weight_[index(row)] = table_[index(row)][index(row)];
+    set_weight(row, -product(product(pivot, scale), scale));
     active_.rows.swap_remove(leaving);
     multipliers_[index(leaving)] = multipliers_[index(active_.rows.size())];
     units_[index(leaving)] = units_[index(active_.rows.size())];
   }
 
-  /// Exchanges the force of a row and what the tool moves off it.
-  /// @param scale  of its column afterwards
-  void sweep(int row, Scalar scale) noexcept {
-    const Scalar pivot = table_[index(row)][index(row)];
-    const Group factor = spread<Group>(Scalar(1) / pivot);
-    std::array<Group, std::size_t(groups)> entries;
-    Values shares;
-#pragma GCC unroll 8
-    for (int g = 0; g < groups; ++g) {
-      const Group c = at(table_[index(row)], g * lanes);
-      set(shares, g * lanes, product(c, factor));
-      entries[index(g)] = with_lane<Scalar, lanes>(c, row - g * lanes, pivot - product(pivot, scale));
-    }
-    for (int i = 0; i < count_; ++i) {
-      const Group share = spread<Group>(shares[index(i)]);
-#pragma GCC unroll 8
-      for (int g = 0; g < groups; ++g)
-        set(table_[index(i)], g * lanes, at(table_[index(i)], g * lanes) - product(share, entries[index(g)]));
-    }
-#pragma GCC unroll 8
-    for (int g = 0; g < groups; ++g) {
-      const Group c = product(entries[index(g)], spread<Group>(scale));
-      set(table_[index(row)], g * lanes, with_lane<Scalar, lanes>(c, row - g * lanes, -product(product(pivot, scale), scale)));
-    }
-  }
-
-  std::array<Values, std::size_t(row_capacity)> table_;
-  std::array<Values, 6> lower_, scaled_;  // L⁻¹aₖ and D⁻¹L⁻¹aₖ, by columns
-  Values violation_, weight_, least_weight_;  // as in `RowScan`
+  Table table_;
+  typename Table::Rows rows_;
+  Values entering_, other_;  // columns, where the table does not keep them
+  Values violation_, weight_, least_weight_, inverse_weight_;  // as in `RowScan`
+  Values* last_column_ = nullptr;  // of the row that became active last
   WarmStart active_;
   Six<Scalar> multipliers_{}, units_{};  // of the active rows, and what makes shares of their multipliers of their columns
-  int count_ = 0, steps_ = 0;
+  Six<Scalar> shares_{};                 // of the active rows in the one that is refused
+  int count_ = 0, steps_ = 0, refused_ = none;
   bool is_behind_ = false;  // the table, by the last row, which became active when nothing was left to follow
 };
 

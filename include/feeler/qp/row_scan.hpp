@@ -296,19 +296,8 @@ class RowScan {
     auto is_met = Group{} <= Group{};
     for (int k = 0; k < problem.row_count; k += lanes)
       is_met &= only_rows<Scalar, lanes>(value_of(rows(problem, k), k), problem.row_count - k) <= threshold;
-    return !all(is_met);
+    return !in_all_lanes<Scalar, lanes>(is_met);
   }
-  template <class Comparison>
-  static bool all(const Comparison& comparison) noexcept {
-    if constexpr (lanes == 1) {
-      return comparison;
-    } else {
-      LaneBits<Scalar> all = -1;
-      for (const LaneBits<Scalar> bits : in_lanes<LaneBits<Scalar>>(comparison)) all &= bits;
-      return all != 0;
-    }
-  }
-
   // Columns of the problem's rows, where they are rounded.
   alignas(64) [[no_unique_address]] std::conditional_t<is_rounded, std::array<Values, 6>, Nothing> rows_;
   alignas(64) Values violation_;     // bₖ − aₖ·x; −∞ for active rows

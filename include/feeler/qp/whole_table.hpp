@@ -1,0 +1,84 @@
+// What the force of each of a few rows does to every other, all of it kept.
+#pragma once
+
+#include <array>
+#include <cstddef>
+
+#include "feeler/core/lanes.hpp"
+#include "feeler/core/scalar.hpp"
+#include "feeler/qp/lower_rows.hpp"
+#include "feeler/qp/row_values.hpp"
+#include "feeler/qp/six.hpp"
+
+namespace feeler::detail {
+
+/// The table of `DualTableau` where rows are few: all of it is kept, and swept as a whole.
+///
+/// The next row's column is at hand when the row is chosen; but the whole table has to be made and followed, which pays up to eight rows.
+template <RealScalar Scalar, int lanes>
+class WholeTable {
+ public:
+  static constexpr bool is_whole = true;
+  static constexpr int capacity = 8;
+  using Values = RowValues<Scalar, lanes, capacity>;
+  using Rows = LowerRows<Scalar, lanes, capacity>;
+
+  void start(const Rows& rows, int count) noexcept {
+    count_ = count;
+    sweeps_ = 0;
+    for (int i = 0; i < count; ++i) {
+      const auto by = rows.scaled_row(i);
+      for (int k = 0; k < count; k += lanes) at(i).set(k, dot_of_six<Group>(rows.at(k), by));
+    }
+    for (int k = (count + lanes - 1) / lanes * lanes; k < capacity; k += lanes) {
+      for (int i = 0; i < count; ++i) at(i).set(k, Group{});
+    }
+  }
+  /// Whether there were so many sweeps that no more are worth it.
+  bool is_full() const noexcept { return sweeps_ == 3 * capacity; }
+
+  /// The column of a row, which stays up to date.
+  Values& column(const Rows&, int row, Values&) noexcept { return at(row); }
+  void follow(int, Values&) const noexcept {}
+  /// Another column was written in the place of one: so are the row's numbers in all others.
+  void replace(int row, const Values& column) noexcept {
+    for (int k = 0; k < count_; ++k) at(k)[std::size_t(row)] = column[std::size_t(k)];
+  }
+  /// Exchanges the force of a row and what the tool moves off it.
+  /// @param column  of the row
+  /// @param scale   of it afterwards
+  void sweep(int row, Values& column, const Scalar& inverse_pivot, const Scalar& scale) noexcept {
+    ++sweeps_;
+    const Scalar pivot = column[std::size_t(row)];
+    const Group factor = spread<Group>(inverse_pivot);
+    std::array<Group, std::size_t(groups)> entries;
+    Values shares;
+#pragma GCC unroll 8
+    for (int g = 0; g < groups; ++g) {
+      const Group c = column.at(g * lanes);
+      shares.set(g * lanes, product(c, factor));
+      entries[std::size_t(g)] = with_lane<Scalar, lanes>(c, row - g * lanes, pivot - product(pivot, scale));
+    }
+    for (int i = 0; i < count_; ++i) {
+      const Group share = spread<Group>(shares[std::size_t(i)]);
+#pragma GCC unroll 8
+      for (int g = 0; g < groups; ++g) at(i).set(g * lanes, at(i).at(g * lanes) - product(share, entries[std::size_t(g)]));
+    }
+#pragma GCC unroll 8
+    for (int g = 0; g < groups; ++g) {
+      const Group c = product(entries[std::size_t(g)], spread<Group>(scale));
+      column.set(g * lanes, with_lane<Scalar, lanes>(c, row - g * lanes, -product(product(pivot, scale), scale)));
+    }
+  }
+
+ private:
+  using Group = Lanes<Scalar, lanes>;
+  static constexpr int groups = capacity / lanes;
+
+  Values& at(int row) noexcept { return columns_[std::size_t(row)]; }
+
+  std::array<Values, std::size_t(capacity)> columns_;
+  int count_ = 0, sweeps_ = 0;
+};
+
+}  // namespace feeler::detail
