@@ -125,7 +125,7 @@ class DualActiveSet {
   template <class Tableau>
   [[gnu::noinline]]
   Outcome solve_by_table(Tableau& tableau, const Problem& problem, Solution& solution) noexcept {
-    constexpr int most_refinements = 2;
+    constexpr int most_refinements = 5;
     const bool is_found = tableau.find(problem, bounds_, inverse_, gradient_, accepted_);
     if (!is_found && tableau.refused() < 0) return Outcome::in_doubt;
     const WarmStart& active = tableau.active();

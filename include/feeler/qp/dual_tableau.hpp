@@ -41,7 +41,7 @@ class DualTableau {
                                           const Six<Scalar>& gradient, Scalar tolerance) noexcept {
     count_ = problem.row_count;
     active_.rows.clear();
-    is_behind_ = false;
+    is_behind_ = is_inverted_ = false;
     steps_ = 0;
     refused_ = none;
     int entering = start(problem, bounds, hessian, gradient, tolerance);
@@ -50,15 +50,12 @@ class DualTableau {
     return entering == none;
   }
 
-  /// After rows were found: the change of their multipliers that moves the tool off each of them by a distance.
+  /// The change of the multipliers of the active rows that moves the tool off each of them by a distance.
   Six<Scalar> change_for(const Six<Scalar>& distances) noexcept {
-    if (is_behind_) sweep_last();
-    is_behind_ = false;
+    if (!is_inverted_) invert();
     Six<Scalar> change{};
-    for (int k = 0; k < active_.rows.size(); ++k) {  // the table of the active rows is the inverse, negative
-      const Values& column = table_.column(rows_, active_.rows[k], other_);
-      const Scalar along = product(units_[index(k)], distances[index(k)]);
-      for (int i = 0; i < active_.rows.size(); ++i) change[index(i)] -= product(share_of(i, column), along);
+    for (int k = 0; k < active_.rows.size(); ++k) {
+      for (int i = 0; i < active_.rows.size(); ++i) change[index(i)] += product(inverse_[index(k)][index(i)], distances[index(k)]);
     }
     return change;
   }
@@ -123,6 +120,20 @@ class DualTableau {
     return best.row();
   }
 
+  /// The inverse of the table of the active rows: what is there in its place, negative.
+  [[gnu::noinline]]
+  void invert() noexcept {
+    if (is_behind_) sweep_last();
+    is_behind_ = false;
+    is_inverted_ = true;
+    for (int k = 0; k < active_.rows.size(); ++k) {
+      for (int i = 0; i <= k; ++i) {
+        const Scalar share = product(table_.number_of_swept(active_.rows[i], active_.rows[k]), units_[index(i)]);
+        inverse_[index(k)][index(i)] = inverse_[index(i)][index(k)] = -product(share, units_[index(k)]);
+      }
+    }
+  }
+
   /// Makes a row active, whatever leaves for it; returns the row to add next, or `none`, or `given_up`.
   [[gnu::always_inline]] inline int add(int entering, Scalar tolerance) noexcept {
     const std::size_t row = index(entering);
@@ -148,6 +159,7 @@ class DualTableau {
         multipliers_[index(active_.rows.size())] = multiplier;
         units_[index(active_.rows.size())] = inverse;
         active_.rows.push_back(entering);
+        is_inverted_ = false;
         last_column_ = column;
         is_behind_ = next < 0;
         if (!is_behind_) sweep_last();
@@ -260,6 +272,7 @@ class DualTableau {
     violation_[index(row)] = Scalar(0);
     set_weight(row, -product(product(pivot, scale), scale));
     active_.rows.swap_remove(leaving);
+    is_inverted_ = false;
     multipliers_[index(leaving)] = multipliers_[index(active_.rows.size())];
     units_[index(leaving)] = units_[index(active_.rows.size())];
   }
@@ -273,6 +286,8 @@ class DualTableau {
   Six<Scalar> multipliers_{}, units_{};  // of the active rows, and what makes shares of their multipliers of their columns
   Six<Scalar> shares_{};                 // of the active rows in the one that is refused
   int count_ = 0, steps_ = 0, refused_ = none;
+  SixBySix<Scalar> inverse_;  // of the table of the active rows, where it is known
+  bool is_inverted_ = false;
   bool is_behind_ = false;  // the table, by the last row, which became active when nothing was left to follow
 };
 

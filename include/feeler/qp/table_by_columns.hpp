@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstddef>
+#include <utility>
 
 #include "feeler/core/lanes.hpp"
 #include "feeler/core/scalar.hpp"
@@ -33,6 +34,13 @@ class TableByColumns {
   /// Whether there were so many sweeps that no more are worth it.
   bool is_full() const noexcept { return sweep_count_ == most_sweeps; }
 
+  /// A number of the table, of two rows that were swept: that of the column which was swept last, as the table is symmetric.
+  Scalar number_of_swept(int row, int other) const noexcept {
+    if (last_sweep_[std::size_t(row)] > last_sweep_[std::size_t(other)]) std::swap(row, other);
+    const int last = last_sweep_[std::size_t(other)];
+    const Sweep& own = sweeps_[std::size_t(last)];
+    return swept(row == other ? own.diagonal() : product(own.entries[std::size_t(row)], own.scale), row, other, last + 1);
+  }
   /// Computes the column of a row.
   [[gnu::always_inline]] inline Values& column(const Rows& rows, int row, Values& column) noexcept {
     const int last = last_sweep_[std::size_t(row)];
@@ -79,6 +87,7 @@ class TableByColumns {
   struct Sweep {
     Values entries, shares;
     Scalar pivot, scale;
+    Scalar diagonal() const noexcept { return -product(product(pivot, scale), scale); }  // afterwards
     int row;
     bool is_measured;  // its column was not this table's
   };
@@ -87,6 +96,14 @@ class TableByColumns {
   static void set_lane(Values& values, int i, const Scalar& value) noexcept {
     const int first = i - i % lanes;
     values.set(first, with_lane<Scalar, lanes>(values.at(first), i - first, value));
+  }
+  /// A number of a row's column after the sweeps from one on.
+  Scalar swept(Scalar number, int at, int row, int first) const noexcept {
+    for (int t = first; t < sweep_count_; ++t) {
+      const Sweep& sweep = sweeps_[std::size_t(t)];
+      number -= product(sweep.entries[std::size_t(at)], sweep.shares[std::size_t(row)]);
+    }
+    return number;
   }
   /// Writes the column of a row: what it was before the sweeps from one on, and those; two groups at a time, which share what is the row's own.
   template <class Before>
@@ -118,12 +135,7 @@ class TableByColumns {
     const Sweep& own = sweeps_[std::size_t(last)];
     const Group scale = spread<Group>(own.scale);
     write(column, row, last + 1, [&](int k) { return product(own.entries.at(k), scale); });
-    Scalar pivot = -product(product(own.pivot, own.scale), own.scale);
-    for (int t = last + 1; t < sweep_count_; ++t) {
-      const Sweep& sweep = sweeps_[std::size_t(t)];
-      pivot -= product(sweep.entries[std::size_t(row)], sweep.shares[std::size_t(row)]);
-    }
-    set_lane(column, row, pivot);
+    set_lane(column, row, swept(own.diagonal(), row, row, last + 1));
   }
 
   /// The numbers of a column in rows whose own columns were measured are those of their columns in its row.
@@ -132,12 +144,7 @@ class TableByColumns {
     for (int t = first; t < sweep_count_; ++t) {
       const Sweep& own = sweeps_[std::size_t(t)];
       if (!own.is_measured) continue;
-      Scalar value = product(own.entries[std::size_t(row)], own.scale);
-      for (int u = t + 1; u < sweep_count_; ++u) {
-        const Sweep& sweep = sweeps_[std::size_t(u)];
-        value -= product(sweep.entries[std::size_t(own.row)], sweep.shares[std::size_t(row)]);
-      }
-      set_lane(column, own.row, value);
+      set_lane(column, own.row, swept(product(own.entries[std::size_t(row)], own.scale), own.row, row, t + 1));
     }
   }
 

@@ -37,6 +37,8 @@ class WholeTable {
   /// Whether there were so many sweeps that no more are worth it.
   bool is_full() const noexcept { return sweeps_ == 3 * capacity; }
 
+  /// A number of the table.
+  const Scalar& number_of_swept(int row, int other) const noexcept { return columns_[std::size_t(other)][std::size_t(row)]; }
   /// The column of a row, which stays up to date.
   Values& column(const Rows&, int row, Values&) noexcept { return at(row); }
   void follow(int, Values&) const noexcept {}
