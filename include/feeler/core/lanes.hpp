@@ -172,6 +172,14 @@ inline Lanes<Scalar, lanes> with_lane(const Lanes<Scalar, lanes>& group, int lan
   }
 }
 
+/// Sets one of some numbers that are read in groups.
+template <int lanes, class Scalar>
+inline void set_lane(Scalar* numbers, int i, const Scalar& value) noexcept {
+  const int lane = i % lanes;
+  Scalar* const group = numbers + std::size_t(i - lane);
+  store(group, with_lane<Scalar, lanes>(load<Lanes<Scalar, lanes>>(group), lane, value));
+}
+
 /// In each lane −1 where a ≤ b, else 0.
 template <class Scalar, int lanes>
 inline Lanes<LaneBits<Scalar>, lanes> at_most(const Lanes<Scalar, lanes>& a, const Lanes<Scalar, lanes>& b) noexcept {

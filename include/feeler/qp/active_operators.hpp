@@ -75,9 +75,7 @@ class ActiveOperators {
       return;
     }
     catch_up();
-    SixGroups at;
-#pragma GCC unroll 6
-    for (std::size_t j = 0; j < 6; ++j) at[j] = spread<Group>(v[j]);
+    const SixGroups at = spread_six<Group>(v);
     multiply_columns(projector_, 6, at, image_.step);
     multiply_columns(duals_, used_, at, image_.share);
   }
@@ -132,8 +130,8 @@ class ActiveOperators {
     subtract_outer(projector_, 6, gained, direction);
     subtract_outer(duals_, used_, image_.share, direction);
     for (Column& column : duals_) {
-      set(column, slot, column[index(last)]);
-      set(column, last, Scalar(0));
+      set_lane<lanes>(column.data(), slot, column[index(last)]);
+      set_lane<lanes>(column.data(), last, Scalar(0));
     }
     normals_[index(slot)] = normals_[index(last)];
     used_ = last;
@@ -208,13 +206,6 @@ class ActiveOperators {
   using Columns = std::array<Column, 6>;
 
   static std::size_t index(int i) noexcept { return std::size_t(i); }
-
-  /// Sets one number of a column.
-  static void set(Column& column, int i, const Scalar& value) noexcept {
-    const int first = i - i % lanes;
-    Scalar* const group = &column[index(first)];
-    store(group, with_lane<Scalar, lanes>(load<Group>(group), i - first, value));
-  }
 
   /// Writes P where nothing is active and H⁻¹ is diagonal.
   void spread_diagonal() noexcept {

@@ -103,10 +103,7 @@ class DualTableau {
   int start(const QpProblem<Scalar>& problem, const Scalar* bounds, const InverseHessian<Scalar>& hessian, const Six<Scalar>& gradient,
             Scalar tolerance) noexcept {
     rows_.start(problem, hessian);
-    const Six<Scalar> home = hessian.solve_lower(gradient);
-    std::array<Group, 6> homes;
-#pragma GCC unroll 6
-    for (std::size_t j = 0; j < 6; ++j) homes[j] = spread<Group>(home[j]);
+    const auto homes = spread_six<Group>(hessian.solve_lower(gradient));
     Best best;
     for (int k = 0; k < count_; k += lanes) {
       const auto [y, scaled] = rows_.take(problem, k);
@@ -185,9 +182,7 @@ class DualTableau {
     const Six<Scalar> change = change_for(along);
     take(change, rest);
     const Six<Scalar> scaled = rows_.scaled(rest);
-    std::array<Group, 6> by;
-#pragma GCC unroll 6
-    for (std::size_t j = 0; j < 6; ++j) by[j] = spread<Group>(scaled[j]);
+    const auto by = spread_six<Group>(scaled);
     for (int k = 0; k < count_; k += lanes) column.set(k, dot_of_six<Group>(rows_.at(k), by));
     for (int i = 0; i < count; ++i) column[index(active_.rows[i])] = (share[index(i)] + change[index(i)]) / units_[index(i)];
     column[index(entering)] = dot(scaled, rest);
@@ -200,30 +195,27 @@ class DualTableau {
   }
 
   /// The active row, by its place, whose force ends first within a step, which ends there; −1 if none does.
-  int first_to_leave(const Values& column, Scalar& step) const noexcept {
+  /// @param counts  whether a share of a row does, which is positive
+  template <class Counts>
+  int first_to_leave(const Values& column, Scalar& step, const Counts& counts) const noexcept {
     int leaving = -1;
     for (int i = 0; i < active_.rows.size(); ++i) {
       const Scalar share = share_of(i, column);
-      if (share > Scalar(0) && multipliers_[index(i)] < product(step, share)) {
+      if (share > Scalar(0) && counts(active_.rows[i], share) && multipliers_[index(i)] < product(step, share)) {
         step = multipliers_[index(i)] / share;
         leaving = i;
       }
     }
     return leaving;
   }
-  /// The same of active rows whose sum a row is, by shares of which those that rounding makes count as none.
+  int first_to_leave(const Values& column, Scalar& step) const noexcept {
+    return first_to_leave(column, step, [](int, const Scalar&) { return true; });
+  }
+  /// The same of active rows whose sum a row is: shares that rounding makes do not count.
   int first_of_sum(int entering, const Values& column, Scalar& step) const noexcept {
     constexpr double rounding = 1e-10;
     const Scalar least = Scalar(rounding * rounding) * least_weight_[index(entering)];
-    int leaving = -1;
-    for (int i = 0; i < active_.rows.size(); ++i) {
-      const Scalar share = share_of(i, column);
-      if (share > Scalar(0) && product(share, share) * least_weight_[index(active_.rows[i])] > least && multipliers_[index(i)] < step * share) {
-        step = multipliers_[index(i)] / share;
-        leaving = i;
-      }
-    }
-    return leaving;
+    return first_to_leave(column, step, [&](int row, const Scalar& share) { return product(share, share) * least_weight_[index(row)] > least; });
   }
   void push(const Values& column, Scalar step) noexcept {
     for (int i = 0; i < active_.rows.size(); ++i)

@@ -26,6 +26,15 @@ using Six = std::array<Scalar, 6>;
 template <class Scalar>
 using SixBySix = std::array<Six<Scalar>, 6>;
 
+/// Each number in every lane of a group.
+template <class Group, class Scalar>
+inline std::array<Group, 6> spread_six(const Six<Scalar>& v) noexcept {
+  std::array<Group, 6> groups;
+#pragma GCC unroll 6
+  for (std::size_t j = 0; j < 6; ++j) groups[j] = spread<Group>(v[j]);
+  return groups;
+}
+
 template <class Scalar>
 inline Scalar dot(const Six<Scalar>& a, const Six<Scalar>& b) noexcept {
   return dot_of_six<Scalar>(a, b);

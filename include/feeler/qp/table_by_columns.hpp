@@ -76,7 +76,7 @@ class TableByColumns {
     is_measured_ = false;
     sweep.pivot = column[std::size_t(row)];
     sweep.scale = scale;
-    set_lane(sweep.entries, row, sweep.pivot - product(sweep.pivot, scale));
+    set_lane<lanes>(sweep.entries.data(), row, sweep.pivot - product(sweep.pivot, scale));
     last_sweep_[std::size_t(row)] = sweep_count_;
     ++sweep_count_;
   }
@@ -93,10 +93,6 @@ class TableByColumns {
   };
   static constexpr int most_sweeps = 32;
 
-  static void set_lane(Values& values, int i, const Scalar& value) noexcept {
-    const int first = i - i % lanes;
-    values.set(first, with_lane<Scalar, lanes>(values.at(first), i - first, value));
-  }
   /// A number of a row's column after the sweeps from one on.
   Scalar swept(Scalar number, int at, int row, int first) const noexcept {
     for (int t = first; t < sweep_count_; ++t) {
@@ -135,7 +131,7 @@ class TableByColumns {
     const Sweep& own = sweeps_[std::size_t(last)];
     const Group scale = spread<Group>(own.scale);
     write(column, row, last + 1, [&](int k) { return product(own.entries.at(k), scale); });
-    set_lane(column, row, swept(own.diagonal(), row, row, last + 1));
+    set_lane<lanes>(column.data(), row, swept(own.diagonal(), row, row, last + 1));
   }
 
   /// The numbers of a column in rows whose own columns were measured are those of their columns in its row.
@@ -144,7 +140,7 @@ class TableByColumns {
     for (int t = first; t < sweep_count_; ++t) {
       const Sweep& own = sweeps_[std::size_t(t)];
       if (!own.is_measured) continue;
-      set_lane(column, own.row, swept(product(own.entries[std::size_t(row)], own.scale), own.row, row, t + 1));
+      set_lane<lanes>(column.data(), own.row, swept(product(own.entries[std::size_t(row)], own.scale), own.row, row, t + 1));
     }
   }
 
