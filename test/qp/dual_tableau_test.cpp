@@ -226,7 +226,7 @@ BOOST_AUTO_TEST_CASE_TEMPLATE(rows_that_nearly_depend_are_met_to_rounding_once_r
   BOOST_TEST_MESSAGE("seed " << seed);
   std::mt19937 bits(seed);
   AnyTableau tableau;
-  feeler::detail::HeldMinimum<double> minimum;
+  feeler::detail::HeldMinimum<double, 2> minimum;
   int found = 0;
   double before = 0;
   for (int i = 0; i < 2000; ++i) {
@@ -234,8 +234,14 @@ BOOST_AUTO_TEST_CASE_TEMPLATE(rows_that_nearly_depend_are_met_to_rounding_once_r
     if (!find(tableau, problem) || tableau.active().rows.size() < 2) continue;
     ++found;
     const feeler_test::Quadratic f(problem);
-    before = std::max(before, minimum.place(problem, problem.bounds.data(), tableau.active(), tableau.multipliers(), f.hessian, f.gradient));
-    for (int n = 0; n < 2; ++n) minimum.shift(problem.bounds.data(), tableau.active(), tableau.change_for(minimum.lacking()), f.hessian);
+    int refinements = 0;
+    const auto change_for = [&](const auto& lacking) {
+      if (refinements == 0) {
+        for (int k = 0; k < tableau.active().rows.size(); ++k) before = std::max(before, std::abs(lacking[std::size_t(k)]));
+      }
+      return ++refinements <= 2 ? tableau.change_for(lacking) : feeler::detail::Six<double>{};
+    };
+    minimum.place(problem, problem.bounds.data(), tableau.active(), tableau.multipliers(), f.hessian, f.gradient, change_for, 0.0);
     const Eigen::Map<const Vector6> x(minimum.x().data());
     for (int k = 0; k < tableau.active().rows.size(); ++k) {
       const auto row = std::size_t(tableau.active().rows[k]);

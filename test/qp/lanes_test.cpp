@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <random>
 #include <tuple>
+#include <utility>
 
 #include "feeler/qp/best_row.hpp"
 #include "feeler/qp/dual_active_set.hpp"
@@ -95,6 +96,26 @@ void check_first_and_largest_lanes() {
   }
 }
 
+template <class Scalar, int lanes, int... i>
+void check_lanes_known_beforehand(std::integer_sequence<int, i...>) {
+  using Group = feeler::detail::Lanes<Scalar, lanes>;
+  const Group group{Scalar(1 << i)...}, other = -group;
+  const auto check = [&]<int lane>(std::integral_constant<int, lane>) {
+    const auto spread = feeler::detail::in_lanes<Scalar>(feeler::detail::spread_lane<Scalar, lanes, lane>(group));
+    const auto mixed = feeler::detail::in_lanes<Scalar>(feeler::detail::with_lane_of<Scalar, lanes, lane>(group, other));
+    for (int k = 0; k < lanes; ++k) {
+      BOOST_TEST(spread[std::size_t(k)] == Scalar(1 << lane));
+      BOOST_TEST(mixed[std::size_t(k)] == Scalar(k == lane ? -(1 << k) : 1 << k));
+    }
+    BOOST_TEST((feeler::detail::in_all_lanes<Scalar, lanes>(Group{} < group)));
+    BOOST_TEST((!feeler::detail::in_all_lanes<Scalar, lanes>(Group{} < feeler::detail::with_lane_of<Scalar, lanes, lane>(group, other))));
+    BOOST_TEST((!feeler::detail::in_all_lanes<Scalar, lanes>(Group{} < feeler::detail::with_lane_of<Scalar, lanes, lane>(other, group))));
+  };
+  (check(std::integral_constant<int, i>{}), ...);
+  const Scalar sum = feeler::detail::sum_of_lanes<Scalar, lanes>(group);
+  BOOST_TEST(sum == Scalar((1 << lanes) - 1));
+}
+
 /// Checks that the numbers of one group of double, and of two, are rounded in their order.
 template <int lanes>
 void check_rounding() {
@@ -116,6 +137,10 @@ void check_rounding() {
 
 BOOST_AUTO_TEST_CASE(the_first_lanes_and_the_largest_are_found) {
   for_every_group([]<class Scalar, int lanes>() { check_first_and_largest_lanes<Scalar, lanes>(); });
+}
+
+BOOST_AUTO_TEST_CASE(lanes_known_beforehand_are_spread_mixed_compared_and_added) {
+  for_every_group([]<class Scalar, int lanes>() { check_lanes_known_beforehand<Scalar, lanes>(std::make_integer_sequence<int, lanes>{}); });
 }
 
 BOOST_AUTO_TEST_CASE(groups_are_rounded_in_the_order_of_their_lanes) {

@@ -12,6 +12,10 @@
 #include <type_traits>
 #include <utility>
 
+#if defined(__GNUC__) && defined(__SSE2__)
+#include <immintrin.h>
+#endif
+
 namespace feeler::detail {
 
 /// Bytes of the vector registers that the compiler may use; 0 where it may use none.
@@ -143,6 +147,7 @@ inline Lanes<LaneBits<Scalar>, lanes> only_lane(int lane) noexcept {
 /// @param count  of the first, from 0 to 8
 template <class Scalar, int lanes>
 inline Lanes<LaneBits<Scalar>, lanes> first_lanes(int count) noexcept {
+  if constexpr (lanes == 1) return LaneBits<Scalar>(-(count > 0));
   constexpr int most = 8;
   static constexpr auto marks = [] {
     std::array<LaneBits<Scalar>, std::size_t(2 * most)> ones_and_zeros{};
@@ -169,6 +174,43 @@ inline Lanes<Scalar, lanes> with_lane(const Lanes<Scalar, lanes>& group, int lan
     if constexpr (sizeof(changed) <= std::size_t(vector_bytes)) __asm__("" : "+v"(changed));
 #endif
     return changed;
+  }
+}
+
+/// The number of one lane in every lane.
+template <class Scalar, int lanes, int lane>
+inline Lanes<Scalar, lanes> spread_lane(const Lanes<Scalar, lanes>& group) noexcept {
+  if constexpr (lanes == 1) {
+    return group;
+  } else {
+    return [&]<int... i>(std::integer_sequence<int, i...>) {
+      return Lanes<Scalar, lanes>{group[lane + 0 * i]...};
+    }(std::make_integer_sequence<int, lanes>{});
+  }
+}
+/// The group with one lane of another.
+template <class Scalar, int lanes, int lane>
+inline Lanes<Scalar, lanes> with_lane_of(const Lanes<Scalar, lanes>& group, const Lanes<Scalar, lanes>& other) noexcept {
+  if constexpr (lanes == 1) {
+    return other;
+  } else {
+    return [&]<int... i>(std::integer_sequence<int, i...>) {
+      return Lanes<Scalar, lanes>{(i == lane ? other : group)[i]...};
+    }(std::make_integer_sequence<int, lanes>{});
+  }
+}
+/// The sum of a group's numbers, in an order that is the same as that of several groups of fewer lanes, added up by halves.
+template <class Scalar, int lanes>
+inline Scalar sum_of_lanes(const Lanes<Scalar, lanes>& group) noexcept {
+  if constexpr (lanes == 1) {
+    return group;
+  } else if constexpr (lanes == 2) {
+    return group[0] + group[1];
+  } else {
+    return [&]<int... i>(std::integer_sequence<int, i...>) {
+      constexpr int half = lanes / 2;
+      return sum_of_lanes<Scalar, half>(Lanes<Scalar, half>{group[i]...} + Lanes<Scalar, half>{group[i + half]...});
+    }(std::make_integer_sequence<int, lanes / 2>{});
   }
 }
 
@@ -225,15 +267,28 @@ inline bool in_all_lanes(const Comparison& comparison) noexcept {
   if constexpr (lanes == 1) {
     return comparison;
   } else {
-    Lanes<LaneBits<Scalar>, lanes> bits = comparison;
-    const auto fold = [&]<int half, int... i>(std::integral_constant<int, half>, std::integer_sequence<int, i...>) {
-      bits &= Lanes<LaneBits<Scalar>, lanes>{bits[i ^ half]...};
-    };
-    constexpr std::make_integer_sequence<int, lanes> all{};
-    if constexpr (lanes > 4) fold(std::integral_constant<int, 4>{}, all);
-    if constexpr (lanes > 2) fold(std::integral_constant<int, 2>{}, all);
-    fold(std::integral_constant<int, 1>{}, all);
-    return bits[0] != 0;
+    using Bits = Lanes<LaneBits<Scalar>, lanes>;
+    const Bits bits = comparison;
+    constexpr bool is_double = sizeof(Scalar) == 8;
+#if defined(__GNUC__) && defined(__SSE2__)  // one instruction gathers the lanes' signs
+    if constexpr (sizeof(Bits) == 16) {
+      return is_double ? _mm_movemask_pd(std::bit_cast<__m128d>(bits)) == 3 : _mm_movemask_ps(std::bit_cast<__m128>(bits)) == 15;
+    }
+#if defined(__AVX__)
+    if constexpr (sizeof(Bits) == 32) {
+      return is_double ? _mm256_movemask_pd(std::bit_cast<__m256d>(bits)) == 15 : _mm256_movemask_ps(std::bit_cast<__m256>(bits)) == 255;
+    }
+#endif
+#endif
+    if constexpr (lanes == 2) {
+      return (bits[0] & bits[1]) != 0;
+    } else {
+      return [&]<int... i>(std::integer_sequence<int, i...>) {
+        constexpr int half = lanes / 2;
+        using Half = Lanes<LaneBits<Scalar>, half>;
+        return in_all_lanes<Scalar, half>(Half(Half{bits[i]...} & Half{bits[i + half]...}));
+      }(std::make_integer_sequence<int, lanes / 2>{});
+    }
   }
 }
 

@@ -113,8 +113,8 @@ class DualActiveSet {
     const Six& x = guess_.x();
     if (!isfinite(detail::size_of(x)) || scan_.is_violated(problem, bounds_, x, accepted_)) return false;
     const int count = known.rows.size();
-    const auto normal_of = [this](int i) -> const Six& { return guess_.normal(i); };
-    if (Six residual; is_off(x, count, normal_of, guess_.multipliers(), guess_.lacking(), residual)) return false;
+    const auto normal_of = [&](int i) { return row_of(problem, known.rows[i]); };
+    if (Six residual; is_off(x, count, normal_of, guess_.multipliers(), guess_.force(), guess_.lacking(), residual)) return false;
     std::copy_n(x.begin(), 6, solution.step.data());
     for (int i = 0; i < count; ++i) solution.active.push_back({known.rows[i], guess_.multipliers()[index(i)]});
     solution.iterations = iterations;
@@ -125,13 +125,11 @@ class DualActiveSet {
   template <class Tableau>
   [[gnu::noinline]]
   Outcome solve_by_table(Tableau& tableau, const Problem& problem, Solution& solution) noexcept {
-    constexpr int most_refinements = 5;
     const bool is_found = tableau.find(problem, bounds_, inverse_, gradient_, accepted_);
     if (!is_found && tableau.refused() < 0) return Outcome::in_doubt;
     const WarmStart& active = tableau.active();
-    Scalar lacking = guess_.place(problem, bounds_, active, tableau.multipliers(), inverse_, gradient_);
-    for (int i = 0; i < most_refinements && lacking > accepted_ / 2; ++i)
-      lacking = guess_.shift(bounds_, active, tableau.change_for(guess_.lacking()), inverse_);
+    const auto change_for = [&](const auto& distances) { return tableau.change_for(distances); };
+    guess_.place(problem, bounds_, active, tableau.multipliers(), inverse_, gradient_, change_for, accepted_ / 2);
     if (is_found) return is_right(problem, active, 1 + tableau.steps(), solution) ? Outcome::optimal : Outcome::in_doubt;
     return is_contradicted(tableau, problem, solution) ? Outcome::infeasible : Outcome::in_doubt;
   }
@@ -144,7 +142,7 @@ class DualActiveSet {
     const Six a = row_of(problem, tableau.refused());
     const auto& rows = tableau.active().rows;
     Six rest = a;
-    const auto normal_of = [this](int i) -> const Six& { return guess_.normal(i); };
+    const auto normal_of = [&](int i) { return row_of(problem, rows[i]); };
     for (int i = 0; i < rows.size(); ++i) detail::subtract(normal_of(i), tableau.shares()[index(i)], rest);
     if (!isfinite(detail::size_of(guess_.x())) || detail::size_of(rest) > allowed_rest(a)) return false;
     if (!is_conflict(tableau.refused(), a, rest, true, guess_.x(), rows.begin(), rows.size(), normal_of, tableau.shares(), solution)) return false;
@@ -315,40 +313,45 @@ class DualActiveSet {
 
   /// Whether the active rows or the gradient are off.
   /// @param count     of active rows
+  /// @param force     of them, the sum of their normals by their multipliers
   /// @param lacking   by how much x falls short of each of them
   /// @param residual  of the gradient, to be found
-  template <class NormalOf, class Multipliers>
-  bool is_off(const Six& x, int count, const NormalOf& normal_of, const Multipliers& multipliers, const Six& lacking, Six& residual) const noexcept {
+  template <class NormalOf, class Multipliers, class Distances>
+  [[gnu::always_inline]] inline bool is_off(const Six& x, int count, const NormalOf& normal_of, const Multipliers& multipliers, const Six& force,
+                                            const Distances& lacking, Six& residual) const noexcept {
     const Six bent = inverse_.hessian_times(x);
     Scalar most_lacking(0);
 #pragma GCC unroll 6
-    for (std::size_t j = 0; j < 6; ++j) residual[j] = bent[j] + gradient_[j];
-    for (int i = 0; i < count; ++i) {
-      const Six& a = normal_of(i);
-#pragma GCC unroll 6
-      for (std::size_t j = 0; j < 6; ++j) residual[j] -= detail::product(multipliers[index(i)], a[j]);
-      most_lacking = std::max(most_lacking, detail::magnitude(lacking[index(i)]));
-    }
+    for (std::size_t j = 0; j < 6; ++j) residual[j] = (bent[j] + gradient_[j]) - force[j];
+    for (int i = 0; i < count; ++i) most_lacking = std::max(most_lacking, detail::magnitude(lacking[index(i)]));
     const Scalar rounding_of_sum = 1024 * std::numeric_limits<Scalar>::epsilon(), off = detail::size_of(residual);
-    Scalar size = detail::size_of(bent) + detail::size_of(gradient_);
+    const Scalar size = detail::size_of(bent) + detail::size_of(gradient_);
     if (most_lacking <= accepted_ && off <= rounding_of_sum * size) return false;
-
-    // What the sizes of the rows excuse is seldom needed.
+    return is_off_for_its_size(x, count, normal_of, multipliers, lacking, off / rounding_of_sum - size);
+  }
+  /// What the sizes of the rows excuse is seldom needed.
+  /// @param excess  of the residual, in units of its rounding
+  template <class NormalOf, class Multipliers, class Distances>
+  [[gnu::noinline]] bool is_off_for_its_size(const Six& x, int count, const NormalOf& normal_of, const Multipliers& multipliers,
+                                             const Distances& lacking, Scalar excess) const noexcept {
     const Scalar rounding = detail::rounding_at(x);
     for (int i = 0; i < count; ++i) {
       const Scalar row_size = detail::size_of(normal_of(i));
-      size += detail::product(multipliers[index(i)], row_size);
+      excess -= detail::product(multipliers[index(i)], row_size);
       if (detail::magnitude(lacking[index(i)]) > accepted_ + detail::product(rounding, row_size)) return true;
     }
-    return off > rounding_of_sum * size;
+    return excess > Scalar(0);
   }
 
   /// Where the active rows or the gradient are off, takes one step of Newton's method and returns true.
   bool refine() noexcept {
     const auto normal_of = [this](int i) -> const Six& { return operators_.normal(i); };
-    Six residual, lacking{};
-    for (int i = 0; i < operators_.used(); ++i) lacking[index(i)] = bounds_[slots_[index(i)]] - detail::dot(normal_of(i), x_);
-    if (!is_off(x_, operators_.used(), normal_of, multipliers_, lacking, residual)) return false;
+    Six residual, lacking{}, force{};
+    for (int i = 0; i < operators_.used(); ++i) {
+      lacking[index(i)] = bounds_[slots_[index(i)]] - detail::dot(normal_of(i), x_);
+      detail::subtract(normal_of(i), Scalar(-multipliers_[index(i)]), force);
+    }
+    if (!is_off(x_, operators_.used(), normal_of, multipliers_, force, lacking, residual)) return false;
 
     const Six across = operators_.step_of(lacking);
     const Six pulled = inverse_.hessian_times(across);
@@ -461,7 +464,7 @@ class DualActiveSet {
     };
     Scalar slack = allowed(a), violation = bounds_[p] - detail::dot(a, x);
     for (int i = 0; i < count; ++i) {
-      const Six& normal = normal_of(i);
+      const Six normal = normal_of(i);
       slack -= detail::product(shares[index(i)], allowed(normal));
       const Scalar drift = bounds_[rows[i]] - detail::dot(normal, x);  // of x off this row
       violation -= detail::product(shares[index(i)], drift);
@@ -520,7 +523,7 @@ class DualActiveSet {
   }
 
   detail::InverseHessian<Scalar> inverse_;
-  detail::HeldMinimum<Scalar> guess_;
+  detail::HeldMinimum<Scalar, table_lanes> guess_;
   FewRows few_;
   SomeRows some_;
   Operators operators_;

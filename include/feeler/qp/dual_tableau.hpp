@@ -51,7 +51,8 @@ class DualTableau {
   }
 
   /// The change of the multipliers of the active rows that moves the tool off each of them by a distance.
-  Six<Scalar> change_for(const Six<Scalar>& distances) noexcept {
+  template <class Distances>
+  Six<Scalar> change_for(const Distances& distances) noexcept {
     if (!is_inverted_) invert();
     Six<Scalar> change{};
     for (int k = 0; k < active_.rows.size(); ++k) {

@@ -47,6 +47,8 @@ class InverseHessian {
     }
     return v;
   }
+  /// H⁻¹·v, by L.
+  Six<Scalar> solve(const Six<Scalar>& v) const noexcept { return solve_upper(multiply(d_inverse_, solve_lower(v))); }
   /// L⁻ᵀ·v
   Six<Scalar> solve_upper(Six<Scalar> v) const noexcept {
     if (is_diagonal_) return v;
@@ -110,12 +112,18 @@ class InverseHessian {
   }
 
   bool invert_diagonal() noexcept {
-    bool is_definite = true;
-    for (std::size_t j = 0; j < 6; ++j) {
-      is_definite = is_definite & is_pivot(entry(j, j));
-      d_inverse_[j] = Scalar(1) / entry(j, j);
+    constexpr int lanes = std::min(lanes_of<Scalar>, 2);
+    using Group = Lanes<Scalar, lanes>;
+    auto is_definite = Group{} <= Group{};
+#pragma GCC unroll 6
+    for (std::size_t j = 0; j < 6; j += std::size_t(lanes)) {
+      Group pivots;
+      if constexpr (lanes == 1) pivots = entry(j, j);
+      else pivots = Group{entry(j, j), entry(j + 1, j + 1)};
+      is_definite &= (pivots > Group{}) & (pivots < spread<Group>(std::numeric_limits<Scalar>::max()));
+      store(&d_inverse_[j], Group(spread<Group>(Scalar(1)) / pivots));
     }
-    return is_definite;
+    return in_all_lanes<Scalar, lanes>(is_definite);
   }
 
   /// L and D. Compilers keep the factor in registers where they know every bound, and do not always unroll so far unasked.
@@ -177,7 +185,7 @@ class InverseHessian {
   const Scalar* hessian_ = nullptr;  // by columns
   SixBySix<Scalar> inverse_{};
   SixBySix<Scalar> lower_{};  // rows before the diagonal of L, then of L⁻¹; where H is not diagonal
-  Six<Scalar> d_inverse_{};
+  alignas(16) Six<Scalar> d_inverse_{};
   bool is_diagonal_ = false;
 };
 

@@ -13,7 +13,7 @@ namespace feeler::detail {
 
 /// Σ aⱼ·bⱼ over j < 6, in an order that is the same wherever it is computed.
 template <class Group, class A, class B>
-inline Group dot_of_six(const A& a, const B& b) noexcept {
+[[gnu::always_inline]] inline Group dot_of_six(const A& a, const B& b) noexcept {
   const Group front = product<Group>(a[0], b[0]) + product<Group>(a[1], b[1]);
   const Group middle = product<Group>(a[2], b[2]) + product<Group>(a[3], b[3]);
   const Group back = product<Group>(a[4], b[4]) + product<Group>(a[5], b[5]);
@@ -70,7 +70,7 @@ inline Scalar magnitude(const Scalar& value) noexcept {
 }
 /// The largest |vⱼ| of the first six.
 template <class Scalar, std::size_t size>
-inline Scalar largest_of(const std::array<Scalar, size>& v) noexcept {
+[[gnu::always_inline]] inline Scalar largest_of(const std::array<Scalar, size>& v) noexcept {
   const auto larger = [&v](std::size_t j) { return std::max(magnitude(v[j]), magnitude(v[j + 1])); };
   return std::max(std::max(larger(0), larger(2)), larger(4));
 }
