@@ -114,7 +114,7 @@ class DualActiveSet {
     if (!isfinite(detail::size_of(x)) || scan_.is_violated(problem, bounds_, x, accepted_)) return false;
     const int count = known.rows.size();
     const auto normal_of = [&](int i) { return row_of(problem, known.rows[i]); };
-    if (Six residual; is_off(x, count, normal_of, guess_.multipliers(), guess_.force(), guess_.lacking(), residual)) return false;
+    if (Six residual; is_off(x, count, normal_of, guess_.multipliers(), guess_.force(), guess_.lacking(), guess_.beside(), residual)) return false;
     std::copy_n(x.begin(), 6, solution.step.data());
     for (int i = 0; i < count; ++i) solution.active.push_back({known.rows[i], guess_.multipliers()[index(i)]});
     solution.iterations = iterations;
@@ -315,18 +315,17 @@ class DualActiveSet {
   /// @param count     of active rows
   /// @param force     of them, the sum of their normals by their multipliers
   /// @param lacking   by how much x falls short of each of them
+  /// @param beside    and lies beside one at most
   /// @param residual  of the gradient, to be found
   template <class NormalOf, class Multipliers, class Distances>
   [[gnu::always_inline]] inline bool is_off(const Six& x, int count, const NormalOf& normal_of, const Multipliers& multipliers, const Six& force,
-                                            const Distances& lacking, Six& residual) const noexcept {
+                                            const Distances& lacking, const Scalar& beside, Six& residual) const noexcept {
     const Six bent = inverse_.hessian_times(x);
-    Scalar most_lacking(0);
 #pragma GCC unroll 6
     for (std::size_t j = 0; j < 6; ++j) residual[j] = (bent[j] + gradient_[j]) - force[j];
-    for (int i = 0; i < count; ++i) most_lacking = std::max(most_lacking, detail::magnitude(lacking[index(i)]));
     const Scalar rounding_of_sum = 1024 * std::numeric_limits<Scalar>::epsilon(), off = detail::size_of(residual);
     const Scalar size = detail::size_of(bent) + detail::size_of(gradient_);
-    if (most_lacking <= accepted_ && off <= rounding_of_sum * size) return false;
+    if (beside <= accepted_ && off <= rounding_of_sum * size) return false;
     return is_off_for_its_size(x, count, normal_of, multipliers, lacking, off / rounding_of_sum - size);
   }
   /// What the sizes of the rows excuse is seldom needed.
@@ -347,11 +346,13 @@ class DualActiveSet {
   bool refine() noexcept {
     const auto normal_of = [this](int i) -> const Six& { return operators_.normal(i); };
     Six residual, lacking{}, force{};
+    Scalar beside(0);
     for (int i = 0; i < operators_.used(); ++i) {
       lacking[index(i)] = bounds_[slots_[index(i)]] - detail::dot(normal_of(i), x_);
+      beside = std::max(beside, detail::magnitude(lacking[index(i)]));
       detail::subtract(normal_of(i), Scalar(-multipliers_[index(i)]), force);
     }
-    if (!is_off(x_, operators_.used(), normal_of, multipliers_, force, lacking, residual)) return false;
+    if (!is_off(x_, operators_.used(), normal_of, multipliers_, force, lacking, beside, residual)) return false;
 
     const Six across = operators_.step_of(lacking);
     const Six pulled = inverse_.hessian_times(across);

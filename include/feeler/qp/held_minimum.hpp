@@ -46,8 +46,8 @@ class HeldMinimum {
       if (!schur.sweep_and_solve(multipliers)) return false;
       multipliers = rows.only_rows(multipliers);
       if (!are_positive(rows, multipliers)) return false;
-      const Scalar beside = place(rows, multipliers, hessian, gradient);
-      if (beside > rough() * largest_of(x_)) shift(rows, rows.only_rows(schur.solve(rows.values(lacking_))), hessian);
+      place(rows, multipliers, hessian, gradient);
+      if (beside_ > rough() * largest_of(x_)) shift(rows, rows.only_rows(schur.solve(rows.values(lacking_))), hessian);
       return true;
     });
   }
@@ -62,8 +62,8 @@ class HeldMinimum {
              const InverseHessian<Scalar>& hessian, const Six<Scalar>& gradient, const ChangeFor& change_for, const Scalar& accepted) noexcept {
     constexpr int most_refinements = 5;
     with_rows(problem, bounds, start, [&](const auto& rows) {
-      Scalar beside = place(rows, rows.values(multipliers), hessian, gradient);
-      for (int i = 0; i < most_refinements && beside > accepted; ++i) beside = shift(rows, rows.values(change_for(lacking_)), hessian);
+      place(rows, rows.values(multipliers), hessian, gradient);
+      for (int i = 0; i < most_refinements && beside_ > accepted; ++i) shift(rows, rows.values(change_for(lacking_)), hessian);
       return true;
     });
   }
@@ -72,8 +72,9 @@ class HeldMinimum {
   const Values& multipliers() const noexcept { return multipliers_; }
   /// Aᵀλ
   const Six<Scalar>& force() const noexcept { return force_; }
-  /// By how much x falls short of each row [m].
+  /// By how much x falls short of each row, and lies beside one at most [m].
   const Values& lacking() const noexcept { return lacking_; }
+  const Scalar& beside() const noexcept { return beside_; }
 
  private:
   /// Calls with as much room for rows as they need.
@@ -99,21 +100,21 @@ class HeldMinimum {
     for (std::size_t g = 0; g < from.size(); ++g) store(&to[g * std::size_t(Rows::lanes)], from[g]);
   }
 
-  /// Where multipliers lead; returns by how much x lies beside a row at most. Forces that cancel do so before they are scaled.
+  /// Goes where multipliers lead. Forces that cancel do so before they are scaled.
   template <class Rows>
-  [[gnu::always_inline]] Scalar place(const Rows& rows, const typename Rows::Values& multipliers, const InverseHessian<Scalar>& hessian,
-               const Six<Scalar>& gradient) noexcept {
+  [[gnu::always_inline]] inline void place(const Rows& rows, const typename Rows::Values& multipliers, const InverseHessian<Scalar>& hessian,
+                                           const Six<Scalar>& gradient) noexcept {
     keep<Rows>(multipliers, multipliers_);
     force_ = rows.sum(multipliers);
     Six<Scalar> rest;
 #pragma GCC unroll 6
     for (std::size_t j = 0; j < 6; ++j) rest[j] = force_[j] - gradient[j];
     x_ = hessian.solve(rest);
-    return look(rows);
+    look(rows);
   }
-  /// Moves x by a change of the multipliers; returns the same.
+  /// Moves x by a change of the multipliers.
   template <class Rows>
-  [[gnu::noinline]] Scalar shift(const Rows& rows, const typename Rows::Values& change, const InverseHessian<Scalar>& hessian) noexcept {
+  [[gnu::noinline]] void shift(const Rows& rows, const typename Rows::Values& change, const InverseHessian<Scalar>& hessian) noexcept {
     typename Rows::Values multipliers = rows.values(multipliers_);
 #pragma GCC unroll 8
     for (std::size_t g = 0; g < change.size(); ++g) multipliers[g] = greater<typename Rows::Group>(multipliers[g] + change[g], typename Rows::Group{});
@@ -122,17 +123,18 @@ class HeldMinimum {
     const Six<Scalar> step = hessian.solve(rows.sum(change));
 #pragma GCC unroll 6
     for (std::size_t j = 0; j < 6; ++j) x_[j] += step[j];
-    return look(rows);
+    look(rows);
   }
   template <class Rows>
-  [[gnu::always_inline]] Scalar look(const Rows& rows) noexcept {
+  [[gnu::always_inline]] inline void look(const Rows& rows) noexcept {
     using Group = typename Rows::Group;
-    const auto lacking = rows.lacking(x_);
+    auto lacking = rows.lacking(x_);
+    if constexpr (Rows::capacity == 1) lacking = rows.only_rows(lacking);  // what fills up more is one of them
     keep<Rows>(lacking, lacking_);
     Group most{};
 #pragma GCC unroll 8
     for (std::size_t g = 0; g < lacking.size(); ++g) most = greater(greater<Group>(lacking[g], Group(-lacking[g])), most);
-    return largest_lane<Scalar, Rows::lanes>(most);
+    beside_ = largest_lane<Scalar, Rows::lanes>(most);
   }
 
   /// Of x, by which it may lie beside a row.
@@ -140,6 +142,7 @@ class HeldMinimum {
 
   Values multipliers_{}, lacking_{};
   Six<Scalar> x_{}, force_{};
+  Scalar beside_{};
 };
 
 }  // namespace feeler::detail
