@@ -298,6 +298,7 @@ class OperatorMethod {
 
   /// No step meets row p, as it is a sum of active ones with negative shares: then these rows contradict each
   /// other.
+  [[gnu::noinline]]
   Entry conclude_conflict(const Problem& problem, int p, const Six& a, Solution& solution) noexcept {
     Six shares{}, rest = a;
     bool is_sum = false;
