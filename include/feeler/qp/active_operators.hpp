@@ -41,10 +41,10 @@ class ActiveOperators {
     is_behind_ = false;
     is_diagonal_ = inverse.is_diagonal();
     if (is_diagonal_) {
-      std::copy_n(inverse.diagonal().begin(), 6, diagonal_.begin());
+      copy_six(inverse.diagonal().data(), diagonal_.data());
     } else {
 #pragma GCC unroll 6
-      for (std::size_t j = 0; j < 6; ++j) std::copy_n(inverse.matrix()[j].begin(), 6, projector_[j].begin());
+      for (std::size_t j = 0; j < 6; ++j) copy_six(inverse.matrix()[j].data(), projector_[j].data());
     }
   }
 
@@ -63,7 +63,7 @@ class ActiveOperators {
     if (used_ == 0 && is_diagonal_) spread_diagonal();
     SixBySix<Scalar> p;
 #pragma GCC unroll 6
-    for (std::size_t j = 0; j < 6; ++j) std::copy_n(projector_[j].begin(), 6, p[j].begin());
+    for (std::size_t j = 0; j < 6; ++j) copy_six(projector_[j].data(), p[j].data());
     return p;
   }
 

@@ -47,7 +47,7 @@ class BestRow {
  public:
   using Group = Lanes<Scalar, lanes>;
 
-  void meet(const Group& violation, const Group& weight, const Group& threshold) noexcept {
+  [[gnu::always_inline]] void meet(const Group& violation, const Group& weight, const Group& threshold) noexcept {
     const Group score = product(violation, violation) / weight;
     if (violation > threshold && score > score_) row_ = current_, score_ = score;
     ++current_;
@@ -78,7 +78,7 @@ class BestRow<Scalar, lanes> {
     number_ = std::bit_cast<Logarithms>(numbers);
   }
 
-  void meet(const Group& violation, const Group& weight, const Group& threshold) noexcept {
+  [[gnu::always_inline]] void meet(const Group& violation, const Group& weight, const Group& threshold) noexcept {
     const Group square = product(violation, violation);
     const Logarithms score = std::bit_cast<Logarithms>(square) - std::bit_cast<Logarithms>(weight);
     const BitGroup is_above = mask(violation > threshold);

@@ -58,7 +58,7 @@ class DualActiveSet {
     solution.iterations = 0;
     solution.step.setZero();
     if (!inverse_.factor(problem.hessian)) return QpStatus::not_positive_definite;
-    std::copy_n(problem.gradient.data(), 6, gradient_.begin());
+    detail::copy_six(problem.gradient.data(), gradient_.data());
 
     WarmStart alone;  // a row alone is most likely active
     if (problem.row_count == 1) alone.rows.push_back(0);
@@ -96,7 +96,7 @@ class DualActiveSet {
     Six residual;
     if (look(problem).is_off(inverse_, gradient_, x, known.rows, guess_.multipliers(), guess_.force(), guess_.lacking(), guess_.beside(), residual))
       return false;
-    std::copy_n(x.begin(), 6, solution.step.data());
+    detail::copy_six(x.data(), solution.step.data());
     for (int i = 0; i < count; ++i) solution.active.push_back({known.rows[i], guess_.multipliers()[index(i)]});
     solution.iterations = iterations;
     return true;
@@ -126,7 +126,7 @@ class DualActiveSet {
     for (int i = 0; i < rows.size(); ++i) detail::subtract(detail::row_of(problem, rows[i]), tableau.shares()[index(i)], rest);
     if (!isfinite(detail::size_of(guess_.x())) || detail::size_of(rest) > detail::allowed_rest(a)) return false;
     if (!look(problem).is_contradiction(tableau.refused(), a, rest, true, guess_.x(), rows, tableau.shares(), tolerance, solution)) return false;
-    std::copy_n(guess_.x().begin(), 6, solution.step.data());
+    detail::copy_six(guess_.x().data(), solution.step.data());
     for (int i = 0; i < rows.size(); ++i) solution.active.push_back({rows[i], guess_.multipliers()[index(i)]});
     solution.iterations = tableau.steps();
     return true;

@@ -39,10 +39,8 @@ class HeldRows {
 
   int count() const noexcept { return count_; }
   const Values& bounds() const noexcept { return bounds_; }
-  /// Number j of each row, of a group of them.
-  const Group& column(std::size_t j, std::size_t g) const noexcept { return columns_[j][g]; }
   /// The rows of a group.
-  std::array<Group, 6> group(std::size_t g) const noexcept {
+  [[gnu::always_inline]] std::array<Group, 6> group(std::size_t g) const noexcept {
     std::array<Group, 6> a;
 #pragma GCC unroll 6
     for (std::size_t j = 0; j < 6; ++j) a[j] = columns_[j][g];
@@ -51,11 +49,11 @@ class HeldRows {
 
   /// Of as many numbers as there are rows; 0 behind them.
   template <class Numbers>
-  Values values(const Numbers& numbers) const noexcept {
+  [[gnu::always_inline]] Values values(const Numbers& numbers) const noexcept {
     return only_rows(in_groups([&](std::size_t i) { return i < 6 ? numbers[i < 6 ? i : 0] : Scalar(0); }));
   }
   /// The values, and 0 behind them.
-  Values only_rows(Values values) const noexcept {
+  [[gnu::always_inline]] Values only_rows(Values values) const noexcept {
 #pragma GCC unroll 8
     for (int g = 0; g < groups; ++g) {
       Group& group = values[std::size_t(g)];
@@ -66,7 +64,7 @@ class HeldRows {
 
   /// Σ valueᵢ·aᵢ, in an order that is the same whatever the number of lanes.
   /// @param values  0 behind the last row
-  Six<Scalar> sum(const Values& values) const noexcept {
+  [[gnu::always_inline]] Six<Scalar> sum(const Values& values) const noexcept {
     Six<Scalar> sums;
 #pragma GCC unroll 6
     for (std::size_t j = 0; j < 6; ++j) {
@@ -81,7 +79,7 @@ class HeldRows {
     return sums;
   }
   /// By how much x falls short of each.
-  Values lacking(const Six<Scalar>& x) const noexcept {
+  [[gnu::always_inline]] Values lacking(const Six<Scalar>& x) const noexcept {
     const auto by = spread_six<Group>(x);
     Values values;
 #pragma GCC unroll 8
@@ -91,7 +89,7 @@ class HeldRows {
 
  private:
   template <class NumberOf>
-  static Values in_groups(const NumberOf& number_of) noexcept {
+  [[gnu::always_inline]] static Values in_groups(const NumberOf& number_of) noexcept {
     return [&]<std::size_t... g>(std::index_sequence<g...>) {
       return Values{in_group<g * std::size_t(lanes)>(number_of, std::make_index_sequence<std::size_t(lanes)>{})...};
     }(std::make_index_sequence<std::size_t(groups)>{});

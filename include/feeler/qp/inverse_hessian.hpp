@@ -48,7 +48,9 @@ class InverseHessian {
     return v;
   }
   /// H⁻¹·v, by L.
-  Six<Scalar> solve(const Six<Scalar>& v) const noexcept { return solve_upper(multiply(d_inverse_, solve_lower(v))); }
+  [[gnu::always_inline]] inline Six<Scalar> solve(const Six<Scalar>& v) const noexcept {
+    return is_diagonal_ ? multiply(d_inverse_, v) : solve_by_factor(v);
+  }
   /// L⁻ᵀ·v
   Six<Scalar> solve_upper(Six<Scalar> v) const noexcept {
     if (is_diagonal_) return v;
@@ -68,9 +70,11 @@ class InverseHessian {
     return is_diagonal_ ? multiply(d_inverse_, v) : multiply(inverse_, v);
   }
   /// H·v
-  Six<Scalar> hessian_times(const Six<Scalar>& v) const noexcept {
+  [[gnu::always_inline]] inline Six<Scalar> hessian_times(const Six<Scalar>& v) const noexcept {
+    if (!is_diagonal_) return full_hessian_times(v);
     Six<Scalar> image;
-    for (std::size_t j = 0; j < 6; ++j) image[j] = is_diagonal_ ? product(entry(j, j), v[j]) : dot_of_six<Scalar>(hessian_ + 6 * j, v);
+#pragma GCC unroll 6
+    for (std::size_t j = 0; j < 6; ++j) image[j] = product(entry(j, j), v[j]);
     return image;
   }
   /// Rows of W = D^(−½)L⁻¹: H⁻¹ = WᵀW.
@@ -109,6 +113,15 @@ class InverseHessian {
       }
       return are_zeros;
     }
+  }
+
+  [[gnu::noinline]] Six<Scalar> solve_by_factor(const Six<Scalar>& v) const noexcept {
+    return solve_upper(multiply(d_inverse_, solve_lower(v)));
+  }
+  [[gnu::noinline]] Six<Scalar> full_hessian_times(const Six<Scalar>& v) const noexcept {
+    Six<Scalar> image;
+    for (std::size_t j = 0; j < 6; ++j) image[j] = dot_of_six<Scalar>(hessian_ + 6 * j, v);
+    return image;
   }
 
   bool invert_diagonal() noexcept {

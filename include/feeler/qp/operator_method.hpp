@@ -52,7 +52,7 @@ class OperatorMethod {
       solution.conflict.clear();
       return QpStatus::iteration_limit;
     }
-    std::copy_n(x_.begin(), 6, solution.step.data());
+    copy_six(x_.data(), solution.step.data());
     for (int i = 0; i < rows_.size(); ++i) solution.active.push_back({rows_[i], multipliers_[index(i)]});
     if (outcome == Outcome::optimal) return QpStatus::optimal;
     return outcome == Outcome::infeasible ? QpStatus::infeasible : QpStatus::iteration_limit;

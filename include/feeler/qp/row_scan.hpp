@@ -142,7 +142,7 @@ class RowScan {
   class DiagonalForm {
    public:
     explicit DiagonalForm(const Six<Scalar>& q) noexcept : entries_(spread_all<CoarseGroup>(q)) {}
-    CoarseGroup operator()(const SixCoarse& a) const noexcept {
+    [[gnu::always_inline]] CoarseGroup operator()(const SixCoarse& a) const noexcept {
       SixCoarse image;
 #pragma GCC unroll 6
       for (std::size_t j = 0; j < 6; ++j) image[j] = product(entries_[j], a[j]);
@@ -163,7 +163,7 @@ class RowScan {
           entries_[j][i] = spread<CoarseGroup>(Coarse(i == j ? q[j][i] : q[j][i] + q[j][i]));
       }
     }
-    CoarseGroup operator()(const SixCoarse& a) const noexcept {
+    [[gnu::always_inline]] CoarseGroup operator()(const SixCoarse& a) const noexcept {
       SixCoarse image;
 #pragma GCC unroll 6
       for (std::size_t j = 0; j < 6; ++j) {
@@ -182,7 +182,7 @@ class RowScan {
   class Violation {
    public:
     Violation(const Scalar* bounds, const Six<Scalar>& x) noexcept : bounds_(bounds), at_(spread_all<Group>(x)) {}
-    Group operator()(const SixGroups& a, int k) const noexcept {
+    [[gnu::always_inline]] Group operator()(const SixGroups& a, int k) const noexcept {
       return load<Group>(bounds_ + k) - dot_of_six<Group>(a, at_);
     }
 
@@ -195,7 +195,7 @@ class RowScan {
    public:
     Excess(const Scalar* bounds, const Six<Scalar>& x, Scalar rounding) noexcept
         : violation_(bounds, x), unit_(spread<Group>(rounding)) {}
-    Group operator()(const SixGroups& a, int k) const noexcept {
+    [[gnu::always_inline]] Group operator()(const SixGroups& a, int k) const noexcept {
       SixGroups size;
 #pragma GCC unroll 6
       for (std::size_t j = 0; j < 6; ++j) size[j] = greater(a[j], Group(-a[j]));
@@ -217,13 +217,13 @@ class RowScan {
     for (std::size_t j = 0; j < 6; ++j) groups[j] = spread<Spread>(Number(v[j]));
     return groups;
   }
-  static SixGroups rows(const Problem& problem, int k) noexcept {
+  [[gnu::always_inline]] static SixGroups rows(const Problem& problem, int k) noexcept {
     SixGroups a;
 #pragma GCC unroll 6
     for (int j = 0; j < 6; ++j) a[index(j)] = load<Group>(problem.rows.column(j) + k);
     return a;
   }
-  SixCoarse coarse_rows(const Problem& problem, int k) const noexcept {
+  [[gnu::always_inline]] SixCoarse coarse_rows(const Problem& problem, int k) const noexcept {
     if constexpr (is_rounded) {
       SixCoarse a;
 #pragma GCC unroll 6
@@ -233,20 +233,20 @@ class RowScan {
       return rows(problem, k);
     }
   }
-  CoarseGroup weight_at(int k) const noexcept {
+  [[gnu::always_inline]] CoarseGroup weight_at(int k) const noexcept {
     return greater(load<CoarseGroup>(&weight_[index(k)]), load<CoarseGroup>(&least_weight_[index(k)]));
   }
 
   /// Computes the groups of `Scalar` from row k on that make one group, and rounds them.
   template <class Compute>
-  static CoarseGroup coarse_group(int k, const Compute& compute) noexcept {
+  [[gnu::always_inline]] static CoarseGroup coarse_group(int k, const Compute& compute) noexcept {
     if constexpr (coarse_lanes > lanes) {
       return rounded<CoarseGroup>(compute(k), compute(k + lanes));
     } else {
       return rounded<CoarseGroup>(compute(k));
     }
   }
-  SixCoarse round_rows(const Problem& problem, int k) noexcept {
+  [[gnu::always_inline]] SixCoarse round_rows(const Problem& problem, int k) noexcept {
     SixCoarse a;
 #pragma GCC unroll 6
     for (int j = 0; j < 6; ++j) {
@@ -257,7 +257,7 @@ class RowScan {
     return a;
   }
   template <class Value>
-  static CoarseGroup coarse_violation(const Problem& problem, int k, const Value& value_of) noexcept {
+  [[gnu::always_inline]] static CoarseGroup coarse_violation(const Problem& problem, int k, const Value& value_of) noexcept {
     const CoarseGroup violation = coarse_group(k, [&](int at) { return value_of(rows(problem, at), at); });
     return only_rows<Coarse, coarse_lanes>(violation, problem.row_count - k);
   }

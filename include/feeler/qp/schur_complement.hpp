@@ -37,7 +37,7 @@ class SchurComplement {
       for (std::size_t j = 0; j < 6; ++j) y[j][g] = lower[j], scaled_[j][g] = product(d_inverse[j], lower[j]);
     }
     for_every_row([&]<std::size_t k>(Number<k>) {
-      if (lanes < 4 && int(k) >= count_) return false;
+      if (!has_row(k)) return false;
       std::array<Group, 6> by;
 #pragma GCC unroll 6
       for (std::size_t j = 0; j < 6; ++j) by[j] = spread_lane<Scalar, lanes, int(k % width)>(y[j][k / width]);
@@ -61,7 +61,7 @@ class SchurComplement {
   [[gnu::always_inline]] bool sweep_and_solve(Values& v) noexcept {
     Values whole{}, pivots{};
     for_every_row([&]<std::size_t k>(Number<k>) {
-      if (lanes < 4 && int(k) >= count_) return false;
+      if (!has_row(k)) return false;
       whole[k / width] = with_lane_of<Scalar, lanes, int(k % width)>(whole[k / width], sweeps_[k][k / width]);
       return true;
     });
@@ -77,7 +77,7 @@ class SchurComplement {
       own[at] = with_lane_of<Scalar, lanes, lane>(own[at], inverse);
       for_every_row([&]<std::size_t i>(Number<i>) {
         if constexpr (i > k) sweep_out<k>(sweeps_[i]);
-        return true;
+        return has_row(i + 1);
       });
       sweep_out<k>(v);
       return true;
@@ -113,6 +113,9 @@ class SchurComplement {
 
   /// Share of a row that has to be its own.
   static constexpr double independent = 1e-3;
+
+  /// Whether there is a row, or no fewer instructions without it.
+  bool has_row(std::size_t k) const noexcept { return lanes >= 4 || int(k) < count_; }
 
   /// Takes row k out of another one, or of a right side.
   template <std::size_t k>

@@ -26,9 +26,16 @@ using Six = std::array<Scalar, 6>;
 template <class Scalar>
 using SixBySix = std::array<Six<Scalar>, 6>;
 
+/// Copies six numbers: with a number that compilers do not know to be six they call a library.
+template <class Scalar>
+[[gnu::always_inline]] inline void copy_six(const Scalar* from, Scalar* to) noexcept {
+#pragma GCC unroll 6
+  for (std::size_t j = 0; j < 6; ++j) to[j] = from[j];
+}
+
 /// Each number in every lane of a group.
 template <class Group, class Scalar>
-inline std::array<Group, 6> spread_six(const Six<Scalar>& v) noexcept {
+[[gnu::always_inline]] inline std::array<Group, 6> spread_six(const Six<Scalar>& v) noexcept {
   std::array<Group, 6> groups;
 #pragma GCC unroll 6
   for (std::size_t j = 0; j < 6; ++j) groups[j] = spread<Group>(v[j]);
@@ -36,12 +43,12 @@ inline std::array<Group, 6> spread_six(const Six<Scalar>& v) noexcept {
 }
 
 template <class Scalar>
-inline Scalar dot(const Six<Scalar>& a, const Six<Scalar>& b) noexcept {
+[[gnu::always_inline]] inline Scalar dot(const Six<Scalar>& a, const Six<Scalar>& b) noexcept {
   return dot_of_six<Scalar>(a, b);
 }
 /// D·v of a diagonal matrix.
 template <class Scalar>
-inline Six<Scalar> multiply(const Six<Scalar>& diagonal, const Six<Scalar>& v) noexcept {
+[[gnu::always_inline]] inline Six<Scalar> multiply(const Six<Scalar>& diagonal, const Six<Scalar>& v) noexcept {
   Six<Scalar> image;
 #pragma GCC unroll 6
   for (std::size_t j = 0; j < 6; ++j) image[j] = product(diagonal[j], v[j]);
@@ -58,7 +65,7 @@ inline Six<Scalar> multiply(const SixBySix<Scalar>& m, const Six<Scalar>& v) noe
 
 /// Takes a multiple of one vector from another.
 template <class Scalar>
-inline void subtract(const Six<Scalar>& a, const Scalar& multiple, Six<Scalar>& from) noexcept {
+[[gnu::always_inline]] inline void subtract(const Six<Scalar>& a, const Scalar& multiple, Six<Scalar>& from) noexcept {
 #pragma GCC unroll 6
   for (std::size_t j = 0; j < 6; ++j) from[j] -= product(multiple, a[j]);
 }
@@ -76,12 +83,12 @@ template <class Scalar, std::size_t size>
 }
 /// Σ |vⱼ|
 template <class Scalar>
-inline Scalar size_of(const Six<Scalar>& v) noexcept {
+[[gnu::always_inline]] inline Scalar size_of(const Six<Scalar>& v) noexcept {
   return ((magnitude(v[0]) + magnitude(v[1])) + (magnitude(v[2]) + magnitude(v[3]))) + (magnitude(v[4]) + magnitude(v[5]));
 }
 /// Rounding of a row's value at x, for a row of size one.
 template <class Scalar>
-inline Scalar rounding_at(const Six<Scalar>& x) noexcept {
+[[gnu::always_inline]] inline Scalar rounding_at(const Six<Scalar>& x) noexcept {
   return 8 * std::numeric_limits<Scalar>::epsilon() * largest_of(x);
 }
 /// Rounding of a·x itself.
