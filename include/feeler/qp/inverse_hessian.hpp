@@ -133,7 +133,8 @@ class InverseHessian {
       Group pivots;
       if constexpr (lanes == 1) pivots = entry(j, j);
       else pivots = Group{entry(j, j), entry(j + 1, j + 1)};
-      is_definite &= (pivots > Group{}) & (pivots < spread<Group>(std::numeric_limits<Scalar>::max()));
+      is_definite &= Group{} < pivots;
+      is_definite &= pivots < spread<Group>(std::numeric_limits<Scalar>::max());
       store(&d_inverse_[j], Group(spread<Group>(Scalar(1)) / pivots));
     }
     return in_all_lanes<Scalar, lanes>(is_definite);
