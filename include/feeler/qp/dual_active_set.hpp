@@ -85,21 +85,22 @@ class DualActiveSet {
 
   enum class Outcome { optimal, infeasible, in_doubt };
 
-  static std::size_t index(int i) noexcept { return std::size_t(i); }
-
   /// Whether the minimum on known rows is that of the problem: then that is all there is to do.
   [[gnu::always_inline]] inline bool is_right(const Problem& problem, const WarmStart& known, int iterations, Solution& solution) noexcept {
     using std::isfinite;
     const Six& x = guess_.x();
     if (!isfinite(detail::size_of(x)) || Scan::is_violated(problem, problem.bounds.data(), x, tolerance)) return false;
-    const int count = known.rows.size();
     Six residual;
     if (look(problem).is_off(inverse_, gradient_, x, known.rows, guess_.multipliers(), guess_.force(), guess_.lacking(), guess_.beside(), residual))
       return false;
-    detail::copy_six(x.data(), solution.step.data());
-    for (int i = 0; i < count; ++i) solution.active.push_back({known.rows[i], guess_.multipliers()[index(i)]});
-    solution.iterations = iterations;
+    hand_over(known, iterations, solution);
     return true;
+  }
+  /// @param rows  that hold at the guess
+  [[gnu::always_inline]] inline void hand_over(const WarmStart& rows, int iterations, Solution& solution) const noexcept {
+    detail::copy_six(guess_.x().data(), solution.step.data());
+    for (int i = 0; i < rows.rows.size(); ++i) solution.active.push_back({rows.rows[i], guess_.multipliers()[std::size_t(i)]});
+    solution.iterations = iterations;
   }
 
   /// Has a table find the active rows of a problem of some rows, or rows that contradict each other, and looks at them afresh.
@@ -123,12 +124,10 @@ class DualActiveSet {
     const Six a = detail::row_of(problem, tableau.refused());
     const auto& rows = tableau.active().rows;
     Six rest = a;
-    for (int i = 0; i < rows.size(); ++i) detail::subtract(detail::row_of(problem, rows[i]), tableau.shares()[index(i)], rest);
+    for (int i = 0; i < rows.size(); ++i) detail::subtract(detail::row_of(problem, rows[i]), tableau.shares()[std::size_t(i)], rest);
     if (!isfinite(detail::size_of(guess_.x())) || detail::size_of(rest) > detail::allowed_rest(a)) return false;
     if (!look(problem).is_contradiction(tableau.refused(), a, rest, true, guess_.x(), rows, tableau.shares(), tolerance, solution)) return false;
-    detail::copy_six(guess_.x().data(), solution.step.data());
-    for (int i = 0; i < rows.size(); ++i) solution.active.push_back({rows[i], guess_.multipliers()[index(i)]});
-    solution.iterations = tableau.steps();
+    hand_over(tableau.active(), tableau.steps(), solution);
     return true;
   }
 

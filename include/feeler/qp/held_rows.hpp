@@ -13,8 +13,8 @@
 
 namespace feeler::detail {
 
-/// Up to six rows of a problem, by columns in registers; what lies behind the last one is some row once more.
-/// @tparam capacity_  how many there may be, up to whole groups: 1, 4 or 8
+/// Up to six rows of a problem, by columns in registers; what fills the last group is one of them once more, or row 0 where there is none.
+/// @tparam capacity_  1, 4 or 8: how many there may be, in whole groups
 template <RealScalar ScalarType, int lanes_, int capacity_>
 class HeldRows {
  public:
@@ -29,7 +29,7 @@ class HeldRows {
     std::array<std::size_t, std::size_t(capacity)> at;
 #pragma GCC unroll 8
     for (int i = 0; i < capacity; ++i) {
-      const int row = i < 6 ? i : i - 2;
+      const int row = i < 6 ? i : i - 2;  // the last group's own once more need no load
       at[std::size_t(i)] = row < count_ ? std::size_t(rows.rows[row]) : count_ > 0 ? std::size_t(rows.rows[0]) : 0;
     }
 #pragma GCC unroll 6
