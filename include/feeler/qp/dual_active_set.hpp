@@ -12,6 +12,7 @@
 #include "feeler/qp/inverse_hessian.hpp"
 #include "feeler/qp/operator_method.hpp"
 #include "feeler/qp/problem.hpp"
+#include "feeler/qp/problem_rows.hpp"
 #include "feeler/qp/qp_solver.hpp"
 #include "feeler/qp/row_scan.hpp"
 #include "feeler/qp/six.hpp"

@@ -8,18 +8,11 @@
 #include "feeler/core/scalar.hpp"
 #include "feeler/qp/inverse_hessian.hpp"
 #include "feeler/qp/problem.hpp"
+#include "feeler/qp/problem_rows.hpp"
 #include "feeler/qp/six.hpp"
 #include "feeler/qp/solution.hpp"
 
 namespace feeler::detail {
-
-template <RealScalar Scalar>
-Six<Scalar> row_of(const QpProblem<Scalar>& problem, int k) noexcept {
-  Six<Scalar> a;
-#pragma GCC unroll 6
-  for (int j = 0; j < 6; ++j) a[std::size_t(j)] = problem.rows.column(j)[k];
-  return a;
-}
 
 /// A length that no step to a row a that lacks `violation` at x has, in all reason.
 template <RealScalar Scalar>

@@ -45,7 +45,7 @@ class HeldMinimum {
       for (std::size_t g = 0; g < multipliers.size(); ++g) multipliers[g] = multipliers[g] + rows.bounds()[g];
       if (!schur.sweep_and_solve(multipliers)) return false;
       multipliers = rows.only_rows(multipliers);
-      if (!are_positive(rows, multipliers)) return false;
+      if (!rows.are_not_negative(multipliers)) return false;
       place(rows, multipliers, hessian, gradient);
       if (beside_ > rough() * largest_of(x_)) shift(rows, rows.only_rows(schur.solve(rows.values(lacking_))), hessian);
       return true;
@@ -84,14 +84,6 @@ class HeldMinimum {
     if (count <= 1) return act(HeldRows<Scalar, 1, 1>(problem, bounds, rows));
     if (count <= 4) return act(HeldRows<Scalar, lanes, 4>(problem, bounds, rows));
     return act(HeldRows<Scalar, lanes, 8>(problem, bounds, rows));
-  }
-
-  template <class Rows>
-  static bool are_positive(const Rows&, const typename Rows::Values& values) noexcept {
-    using Group = typename Rows::Group;
-    auto are = Group{} <= Group{};
-    for (const Group& group : values) are &= Group{} <= group;
-    return in_all_lanes<Scalar, Rows::lanes>(are);
   }
 
   template <class Rows>

@@ -62,6 +62,13 @@ class HeldRows {
     return values;
   }
 
+  /// Whether no value is negative, or no number.
+  [[gnu::always_inline]] static bool are_not_negative(const Values& values) noexcept {
+    auto are = Group{} <= Group{};
+    for (const Group& group : values) are &= Group{} <= group;
+    return in_all_lanes<Scalar, lanes>(are);
+  }
+
   /// Σ valueᵢ·aᵢ, in an order that is the same whatever the number of lanes.
   /// @param values  0 behind the last row
   [[gnu::always_inline]] Six<Scalar> sum(const Values& values) const noexcept {

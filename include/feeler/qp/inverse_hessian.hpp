@@ -1,6 +1,7 @@
 // The Hessian of a quadratic program, and its inverse.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <bit>
 #include <cmath>

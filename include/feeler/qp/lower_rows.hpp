@@ -8,6 +8,7 @@
 #include "feeler/core/scalar.hpp"
 #include "feeler/qp/inverse_hessian.hpp"
 #include "feeler/qp/problem.hpp"
+#include "feeler/qp/problem_rows.hpp"
 #include "feeler/qp/row_values.hpp"
 #include "feeler/qp/six.hpp"
 
@@ -27,14 +28,13 @@ class LowerRows {
     first_ = is_own_ ? columns_[0].data() : problem.rows.column(0);
     stride_ = is_own_ ? sizeof(Values) / sizeof(Scalar) : std::size_t(RowList<Scalar, QpProblem<Scalar>::row_capacity>::stride);
   }
-  /// Computes the rows of a group, from row k on, and keeps them.
   struct Taken {
     SixGroups y, scaled;  // and D⁻¹y
   };
+  /// Computes the rows of a group, from row k on, and keeps them.
   Taken take(const QpProblem<Scalar>& problem, int k) noexcept {
     Taken rows;
-#pragma GCC unroll 6
-    for (int j = 0; j < 6; ++j) rows.y[std::size_t(j)] = load<Group>(problem.rows.column(j) + k);
+    rows.y = rows_of<Group>(problem, k);
     if (is_own_) {
       rows.y = hessian_->solve_lower(rows.y);
 #pragma GCC unroll 6

@@ -15,6 +15,7 @@
 #include "feeler/qp/fresh_look.hpp"
 #include "feeler/qp/inverse_hessian.hpp"
 #include "feeler/qp/problem.hpp"
+#include "feeler/qp/problem_rows.hpp"
 #include "feeler/qp/row_scan.hpp"
 #include "feeler/qp/six.hpp"
 #include "feeler/qp/solution.hpp"

@@ -13,6 +13,7 @@
 #include "feeler/qp/best_row.hpp"
 #include "feeler/qp/inverse_hessian.hpp"
 #include "feeler/qp/problem.hpp"
+#include "feeler/qp/problem_rows.hpp"
 #include "feeler/qp/six.hpp"
 
 namespace feeler::detail {
@@ -217,12 +218,6 @@ class RowScan {
     for (std::size_t j = 0; j < 6; ++j) groups[j] = spread<Spread>(Number(v[j]));
     return groups;
   }
-  [[gnu::always_inline]] static SixGroups rows(const Problem& problem, int k) noexcept {
-    SixGroups a;
-#pragma GCC unroll 6
-    for (int j = 0; j < 6; ++j) a[index(j)] = load<Group>(problem.rows.column(j) + k);
-    return a;
-  }
   [[gnu::always_inline]] SixCoarse coarse_rows(const Problem& problem, int k) const noexcept {
     if constexpr (is_rounded) {
       SixCoarse a;
@@ -230,7 +225,7 @@ class RowScan {
       for (std::size_t j = 0; j < 6; ++j) a[j] = load<CoarseGroup>(&rows_[j][index(k)]);
       return a;
     } else {
-      return rows(problem, k);
+      return rows_of<Group>(problem, k);
     }
   }
   [[gnu::always_inline]] CoarseGroup weight_at(int k) const noexcept {
@@ -258,7 +253,7 @@ class RowScan {
   }
   template <class Value>
   [[gnu::always_inline]] static CoarseGroup coarse_violation(const Problem& problem, int k, const Value& value_of) noexcept {
-    const CoarseGroup violation = coarse_group(k, [&](int at) { return value_of(rows(problem, at), at); });
+    const CoarseGroup violation = coarse_group(k, [&](int at) { return value_of(rows_of<Group>(problem, at), at); });
     return only_rows<Coarse, coarse_lanes>(violation, problem.row_count - k);
   }
 
@@ -295,7 +290,7 @@ class RowScan {
     const Group threshold = spread<Group>(tolerance);
     auto is_met = Group{} <= Group{};
     for (int k = 0; k < problem.row_count; k += lanes)
-      is_met &= only_rows<Scalar, lanes>(value_of(rows(problem, k), k), problem.row_count - k) <= threshold;
+      is_met &= only_rows<Scalar, lanes>(value_of(rows_of<Group>(problem, k), k), problem.row_count - k) <= threshold;
     return !in_all_lanes<Scalar, lanes>(is_met);
   }
   // Columns of the problem's rows, where they are rounded.

@@ -26,7 +26,7 @@ using Six = std::array<Scalar, 6>;
 template <class Scalar>
 using SixBySix = std::array<Six<Scalar>, 6>;
 
-/// Copies six numbers: with a number that compilers do not know to be six they call a library.
+/// Copies six numbers, for which g++ calls the library where `std::copy_n` copies them.
 template <class Scalar>
 [[gnu::always_inline]] inline void copy_six(const Scalar* from, Scalar* to) noexcept {
 #pragma GCC unroll 6
