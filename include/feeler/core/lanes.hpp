@@ -59,14 +59,15 @@ template <class Scalar>
 using LaneBits = std::conditional_t<sizeof(Scalar) == 8, std::int64_t, std::int32_t>;
 
 /// From an address that is a multiple of the group's size.
+///
+/// Compilers that have groups let one lie over its numbers, and nothing else. Bytes that are copied may be anything: after each such store they read
+/// again whatever else is in memory, as counts and addresses.
 template <class Group, class Scalar>
 inline Group load(const Scalar* from) noexcept {
   if constexpr (std::is_same_v<Group, Scalar>) {
     return *from;
   } else {
-    Group group;
-    std::memcpy(&group, std::assume_aligned<sizeof(Group)>(from), sizeof(group));
-    return group;
+    return *reinterpret_cast<const Group*>(from);
   }
 }
 template <class Group, class Scalar>
@@ -74,7 +75,7 @@ inline void store(Scalar* to, const Group& group) noexcept {
   if constexpr (std::is_same_v<Group, Scalar>) {
     *to = group;
   } else {
-    std::memcpy(std::assume_aligned<sizeof(Group)>(to), &group, sizeof(group));
+    *reinterpret_cast<Group*>(to) = group;
   }
 }
 /// The same number in every lane.
@@ -213,13 +214,12 @@ inline Scalar sum_of_lanes(const Lanes<Scalar, lanes>& group) noexcept {
     }(std::make_integer_sequence<int, lanes / 2>{});
   }
 }
-
 /// Sets one of some numbers that are read in groups.
 template <int lanes, class Scalar>
 inline void set_lane(Scalar* numbers, int i, const Scalar& value) noexcept {
-  const int lane = i % lanes;
-  Scalar* const group = numbers + std::size_t(i - lane);
-  store(group, with_lane<Scalar, lanes>(load<Lanes<Scalar, lanes>>(group), lane, value));
+  const std::size_t lane = std::size_t(i) % std::size_t(lanes);
+  Scalar* const group = numbers + (std::size_t(i) - lane);
+  store(group, with_lane<Scalar, lanes>(load<Lanes<Scalar, lanes>>(group), int(lane), value));
 }
 
 /// In each lane −1 where a ≤ b, else 0.

@@ -90,9 +90,10 @@ class DualActiveSet {
   [[gnu::always_inline]] inline bool is_right(const Problem& problem, const WarmStart& known, int iterations, Solution& solution) noexcept {
     using std::isfinite;
     const Six& x = guess_.x();
-    if (!isfinite(detail::size_of(x)) || Scan::is_violated(problem, problem.bounds.data(), x, tolerance)) return false;
-    Six residual;
-    if (look(problem).is_off(inverse_, gradient_, x, known.rows, guess_.multipliers(), guess_.force(), guess_.lacking(), guess_.beside(), residual))
+    if (Scan::is_violated(problem, problem.bounds.data(), x, tolerance)) return false;
+    Six residual;  // is finite where x is
+    if (look(problem).is_off(inverse_, gradient_, x, known.rows, guess_.multipliers(), guess_.force(), guess_.lacking(), guess_.beside(), residual) ||
+        !isfinite(detail::size_of(residual)))
       return false;
     hand_over(known, iterations, solution);
     return true;

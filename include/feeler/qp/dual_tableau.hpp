@@ -104,12 +104,12 @@ class DualTableau {
   int start(const QpProblem<Scalar>& problem, const Scalar* bounds, const InverseHessian<Scalar>& hessian, const Six<Scalar>& gradient,
             Scalar tolerance) noexcept {
     rows_.start(problem, hessian);
-    const auto homes = spread_six<Group>(hessian.solve_lower(gradient));
+    const auto homes = spread_six<Group>(hessian.solve_lower(gradient)), inverse_pivots = spread_six<Group>(hessian.inverse_pivots());
     Best best;
     for (int k = 0; k < count_; k += lanes) {
-      const auto [y, scaled] = rows_.take(problem, k);
+      const auto scaled = rows_.scale(k, inverse_pivots);
       const Group violation = only_rows<Scalar, lanes>(load<Group>(bounds + k) + dot_of_six<Group>(scaled, homes), count_ - k);
-      const Group weight = dot_of_six<Group>(scaled, y), least = spread<Group>(smallest_weight<Scalar>());
+      const Group weight = dot_of_six<Group>(scaled, rows_.at(k)), least = spread<Group>(smallest_weight<Scalar>());
       violation_.set(k, violation);
       set_weights(k, weight);
       least_weight_.set(k, product(spread<Group>(Scalar(least_share)), weight) + least);
@@ -136,7 +136,7 @@ class DualTableau {
   [[gnu::always_inline]] inline int add(int entering, Scalar tolerance) noexcept {
     const std::size_t row = index(entering);
     const Scalar whole = Scalar(1 / least_share) * least_weight_[row];
-    Values* const column = &table_.column(rows_, entering, entering_);
+    Values* column = &table_.column(rows_, entering);
     for (Scalar multiplier(0); !table_.is_full();) {
       ++steps_;
       const bool is_free = !active_.rows.full();
@@ -158,13 +158,12 @@ class DualTableau {
         units_[index(active_.rows.size())] = inverse;
         active_.rows.push_back(entering);
         is_inverted_ = false;
-        last_column_ = column;
         is_behind_ = next < 0;
         if (!is_behind_) sweep_last();
         return next;
       }
       release(leaving, *column, step);
-      table_.follow(entering, *column);
+      column = &table_.follow(entering);
     }
     return given_up;
   }
@@ -188,7 +187,7 @@ class DualTableau {
     for (int i = 0; i < count; ++i) column[index(active_.rows[i])] = (share[index(i)] + change[index(i)]) / units_[index(i)];
     column[index(entering)] = dot(scaled, rest);
     set_weight(entering, column[index(entering)]);
-    table_.replace(entering, column);
+    table_.replace(entering);
   }
   /// Takes shares of the active rows from one.
   void take(const Six<Scalar>& shares, Six<Scalar>& rest) const noexcept {
@@ -220,7 +219,7 @@ class DualTableau {
   }
   void push(const Values& column, Scalar step) noexcept {
     for (int i = 0; i < active_.rows.size(); ++i)
-      multipliers_[index(i)] = std::max(Scalar(0), multipliers_[index(i)] - product(step, share_of(i, column)));
+      multipliers_[index(i)] = greater<Scalar>(multipliers_[index(i)] - product(step, share_of(i, column)), Scalar(0));
   }
   Scalar share_of(int i, const Values& column) const noexcept { return product(column[index(active_.rows[i])], units_[index(i)]); }
 
@@ -232,7 +231,9 @@ class DualTableau {
     for (int k = 0; k < count_; k += lanes) {
       const Group c = column.at(k);
       const Group violation = violation_.at(k) - product(step, c);
-      const Group weight = weight_.at(k) - product(product(factor, c), c);
+      const Group shares = product(factor, c);
+      const Group weight = weight_.at(k) - product(shares, c);
+      table_.set_shares(k, shares);
       violation_.set(k, violation);
       set_weights(k, weight);
       best.meet(violation, greater(weight, least_weight_.at(k)), spread<Group>(tolerance));
@@ -246,14 +247,14 @@ class DualTableau {
   }
   /// Brings the table up to the row that became active last.
   void sweep_last() noexcept {
-    table_.sweep(active_.rows.back(), *last_column_, units_[index(active_.rows.size() - 1)], Scalar(1));
+    table_.enter(active_.rows.back(), units_[index(active_.rows.size() - 1)]);
   }
 
   /// Ends the force of an active row after a step that another one ends.
   [[gnu::noinline]]
   void release(int leaving, const Values& column, Scalar length) noexcept {
     const int row = active_.rows[leaving];
-    Values& own = table_.column(rows_, row, other_);
+    Values& own = table_.active_column(rows_, row);
     const Scalar pivot = own[index(row)], inverse = Scalar(1) / pivot, scale = Scalar(-1) / product(units_[index(leaving)], pivot);
     const Group step = spread<Group>(length), factor = spread<Group>(inverse);
     for (int k = 0; k < count_; k += lanes) {
@@ -261,7 +262,7 @@ class DualTableau {
       violation_.set(k, violation_.at(k) - product(step, column.at(k)));
       set_weights(k, Group(weight_.at(k) - product(product(factor, c), c)));
     }
-    table_.sweep(row, own, inverse, scale);
+    table_.leave(row, inverse, scale);
     violation_[index(row)] = Scalar(0);
     set_weight(row, -product(product(pivot, scale), scale));
     active_.rows.swap_remove(leaving);
@@ -272,9 +273,7 @@ class DualTableau {
 
   Table table_;
   typename Table::Rows rows_;
-  Values entering_, other_;  // columns, where the table does not keep them
   Values violation_, weight_, least_weight_, inverse_weight_;  // as in `RowScan`
-  Values* last_column_ = nullptr;  // of the row that became active last
   WarmStart active_;
   Six<Scalar> multipliers_{}, units_{};  // of the active rows, and what makes shares of their multipliers of their columns
   Six<Scalar> shares_{};                 // of the active rows in the one that is refused

@@ -60,12 +60,11 @@ class HeldMinimum {
   template <class Numbers, class ChangeFor>
   void place(const QpProblem<Scalar>& problem, const Scalar* bounds, const WarmStart& start, const Numbers& multipliers,
              const InverseHessian<Scalar>& hessian, const Six<Scalar>& gradient, const ChangeFor& change_for, const Scalar& accepted) noexcept {
-    constexpr int most_refinements = 5;
     with_rows(problem, bounds, start, [&](const auto& rows) {
       place(rows, rows.values(multipliers), hessian, gradient);
-      for (int i = 0; i < most_refinements && beside_ > accepted; ++i) shift(rows, rows.values(change_for(lacking_)), hessian);
       return true;
     });
+    if (beside_ > accepted) refine(problem, bounds, start, hessian, change_for, accepted);
   }
 
   const Six<Scalar>& x() const noexcept { return x_; }
@@ -77,6 +76,16 @@ class HeldMinimum {
   const Scalar& beside() const noexcept { return beside_; }
 
  private:
+  template <class ChangeFor>
+  [[gnu::noinline]] void refine(const QpProblem<Scalar>& problem, const Scalar* bounds, const WarmStart& start, const InverseHessian<Scalar>& hessian,
+                                const ChangeFor& change_for, const Scalar& accepted) noexcept {
+    constexpr int most_refinements = 5;
+    with_rows(problem, bounds, start, [&](const auto& rows) {
+      for (int i = 0; i < most_refinements && beside_ > accepted; ++i) shift(rows, rows.values(change_for(lacking_)), hessian);
+      return true;
+    });
+  }
+
   /// Calls with as much room for rows as they need.
   template <class Do>
   static bool with_rows(const QpProblem<Scalar>& problem, const Scalar* bounds, const WarmStart& rows, const Do& act) noexcept {

@@ -21,44 +21,38 @@ class LowerRows {
   using Group = Lanes<Scalar, lanes>;
   using SixGroups = std::array<Group, 6>;
 
-  /// @param hessian  factored, not inverted; in place until the last call, as are the rows
-  void start(const QpProblem<Scalar>& problem, const InverseHessian<Scalar>& hessian) noexcept {
+  /// @param hessian  factored, not inverted; in place until the last call
+  [[gnu::always_inline]] void start(const QpProblem<Scalar>& problem, const InverseHessian<Scalar>& hessian) noexcept {
     hessian_ = &hessian;
-    is_own_ = !hessian.is_diagonal();
-    first_ = is_own_ ? columns_[0].data() : problem.rows.column(0);
-    stride_ = is_own_ ? sizeof(Values) / sizeof(Scalar) : std::size_t(RowList<Scalar, QpProblem<Scalar>::row_capacity>::stride);
-  }
-  struct Taken {
-    SixGroups y, scaled;  // and D⁻¹y
-  };
-  /// Computes the rows of a group, from row k on, and keeps them.
-  Taken take(const QpProblem<Scalar>& problem, int k) noexcept {
-    Taken rows;
-    rows.y = rows_of<Group>(problem, k);
-    if (is_own_) {
-      rows.y = hessian_->solve_lower(rows.y);
-#pragma GCC unroll 6
-      for (std::size_t j = 0; j < 6; ++j) columns_[j].set(k, rows.y[j]);
+    if (hessian.is_diagonal()) {
+      keep(problem, [](const SixGroups& a) { return a; });
+    } else {
+      keep_lower(problem);
     }
+  }
+  /// Computes and keeps D⁻¹y of a group, from row k on.
+  /// @param inverse_pivots  D⁻¹
+  [[gnu::always_inline]] SixGroups scale(int k, const SixGroups& inverse_pivots) noexcept {
+    SixGroups scaled;
 #pragma GCC unroll 6
     for (std::size_t j = 0; j < 6; ++j) {
-      rows.scaled[j] = product(spread<Group>(hessian_->inverse_pivots()[j]), rows.y[j]);
-      scaled_[j].set(k, rows.scaled[j]);
+      scaled[j] = product(inverse_pivots[j], columns_[j].at(k));
+      scaled_[j].set(k, scaled[j]);
     }
-    return rows;
+    return scaled;
   }
 
   /// Of the rows of a group, from row k on.
   SixGroups at(int k) const noexcept {
     SixGroups y;
 #pragma GCC unroll 6
-    for (std::size_t j = 0; j < 6; ++j) y[j] = load<Group>(first_ + j * stride_ + std::size_t(k));
+    for (std::size_t j = 0; j < 6; ++j) y[j] = columns_[j].at(k);
     return y;
   }
   Six<Scalar> row(int k) const noexcept {
     Six<Scalar> y;
 #pragma GCC unroll 6
-    for (std::size_t j = 0; j < 6; ++j) y[j] = entry(k, j);
+    for (std::size_t j = 0; j < 6; ++j) y[j] = columns_[j][std::size_t(k)];
     return y;
   }
   /// D⁻¹y
@@ -74,13 +68,20 @@ class LowerRows {
  private:
   using Values = RowValues<Scalar, lanes, capacity>;
 
-  const Scalar& entry(int k, std::size_t j) const noexcept { return first_[j * stride_ + std::size_t(k)]; }
+  template <class LowerOf>
+  [[gnu::always_inline]] void keep(const QpProblem<Scalar>& problem, const LowerOf& lower_of) noexcept {
+    for (int k = 0; k < problem.row_count; k += lanes) {
+      const SixGroups y = lower_of(rows_of<Group>(problem, k));
+#pragma GCC unroll 6
+      for (std::size_t j = 0; j < 6; ++j) columns_[j].set(k, y[j]);
+    }
+  }
+  [[gnu::noinline]] void keep_lower(const QpProblem<Scalar>& problem) noexcept {
+    keep(problem, [&](const SixGroups& a) { return hessian_->solve_lower(a); });
+  }
 
   std::array<Values, 6> columns_, scaled_;
   const InverseHessian<Scalar>* hessian_ = nullptr;
-  const Scalar* first_ = nullptr;
-  std::size_t stride_ = 0;
-  bool is_own_ = false;  // else they are the columns of the problem
 };
 
 }  // namespace feeler::detail

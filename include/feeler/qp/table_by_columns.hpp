@@ -24,12 +24,13 @@ class TableByColumns {
   static constexpr int capacity = 24;
   using Values = RowValues<Scalar, lanes, capacity>;
   using Rows = LowerRows<Scalar, lanes, capacity>;
+  using Group = Lanes<Scalar, lanes>;
 
   void start(const Rows&, int count) noexcept {
     count_ = count;
     sweep_count_ = 0;
-    is_measured_ = are_some_measured_ = false;
-    for (int k = 0; k < count; ++k) last_sweep_[std::size_t(k)] = -1;
+    measured_ = 0;
+    last_sweep_.fill(-1);
   }
   /// Whether there were so many sweeps that no more are worth it.
   bool is_full() const noexcept { return sweep_count_ == most_sweeps; }
@@ -41,57 +42,63 @@ class TableByColumns {
     const Sweep& own = sweeps_[std::size_t(last)];
     return swept(row == other ? own.diagonal() : product(own.entries[std::size_t(row)], own.scale), row, other, last + 1);
   }
-  /// Computes the column of a row.
-  [[gnu::always_inline]] inline Values& column(const Rows& rows, int row, Values& column) noexcept {
-    const int last = last_sweep_[std::size_t(row)];
-    if (last >= 0) {
-      make_swept(row, last, column);
-    } else {
-      const auto by = rows.scaled_row(row);
-      write(column, row, 0, [&](int k) { return dot_of_six<Group>(rows.at(k), by); });
-    }
-    if (are_some_measured_) repeat_measured(row, last + 1, column);
+  /// Computes the column of a row that may become active.
+  [[gnu::always_inline]] inline Values& column(const Rows& rows, int row) noexcept { return make(rows, row, next().entries); }
+  /// Brings it up to the sweep of a row that left.
+  Values& follow(int row) noexcept {
+    Values& column = next().entries;
+    write(column, row, sweep_count_ - 1, [&](int k) { return column.at(k); });
     return column;
   }
-  /// Brings the column of a row up to the sweep of another one.
-  void follow(int row, Values& column) noexcept {
-    write(column, row, sweep_count_ - 1, [&](int k) { return column.at(k); });
+  /// It was written anew.
+  void replace(int) noexcept { measured_ |= 1u << sweep_count_; }
+  /// Its shares of a group, when it is divided by the row's number.
+  [[gnu::always_inline]] void set_shares(int k, const Group& shares) noexcept { next().shares.set(k, shares); }
+  /// Exchanges the force of the row and what the tool moves off it.
+  void enter(int row, const Scalar&) noexcept {
+    Sweep& sweep = next();
+    sweep.pivot = sweep.entries[std::size_t(row)];
+    sweep.scale = Scalar(1);
+    end(sweep, row, Scalar(0));
   }
-  /// Another column was written in the place of one, which is swept next.
-  void replace(int, const Values&) noexcept { is_measured_ = true; }
-  /// Exchanges the force of a row and what the tool moves off it.
-  /// @param column  of the row
-  /// @param scale   of it afterwards
-  void sweep(int row, const Values& column, const Scalar& inverse_pivot, const Scalar& scale) noexcept {
-    Sweep& sweep = sweeps_[std::size_t(sweep_count_)];
+
+  /// Computes the column of an active row.
+  Values& active_column(const Rows& rows, int row) noexcept { return make(rows, row, leaving_); }
+  /// Exchanges back its force and what the tool moves off it; the column of a row that may become active stays.
+  /// @param scale  of the row's own column afterwards
+  void leave(int row, const Scalar& inverse_pivot, const Scalar& scale) noexcept {
+    Sweep& sweep = next();
+    Values& entering = sweeps_[std::size_t(sweep_count_ + 1)].entries;
     const Group factor = spread<Group>(inverse_pivot);
     for (int k = 0; k < count_; k += lanes) {
-      const Group c = column.at(k);
-      sweep.entries.set(k, c);
-      sweep.shares.set(k, product(factor, c));
+      entering.set(k, sweep.entries.at(k));
+      sweep.entries.set(k, leaving_.at(k));
+      sweep.shares.set(k, product(factor, leaving_.at(k)));
     }
-    sweep.row = row;
-    sweep.is_measured = is_measured_;
-    are_some_measured_ = are_some_measured_ || is_measured_;
-    is_measured_ = false;
-    sweep.pivot = column[std::size_t(row)];
+    if (is_measured(sweep_count_)) measured_ ^= 3u << sweep_count_;
+    sweep.pivot = leaving_[std::size_t(row)];
     sweep.scale = scale;
-    set_lane<lanes>(sweep.entries.data(), row, sweep.pivot - product(sweep.pivot, scale));
-    last_sweep_[std::size_t(row)] = sweep_count_;
-    ++sweep_count_;
+    end(sweep, row, sweep.pivot - product(sweep.pivot, scale));
   }
 
  private:
-  using Group = Lanes<Scalar, lanes>;
   /// An outer product that was taken from the table, but for the row's own column.
   struct Sweep {
     Values entries, shares;
     Scalar pivot, scale;
-    Scalar diagonal() const noexcept { return -product(product(pivot, scale), scale); }  // afterwards
     int row;
-    bool is_measured;  // its column was not this table's
+    Scalar diagonal() const noexcept { return -product(product(pivot, scale), scale); }  // afterwards
   };
-  static constexpr int most_sweeps = 32;
+  static constexpr int most_sweeps = 31;
+
+  bool is_measured(int sweep) const noexcept { return (measured_ >> sweep & 1u) != 0; }
+  Sweep& next() noexcept { return sweeps_[std::size_t(sweep_count_)]; }
+  void end(Sweep& sweep, int row, const Scalar& own_entry) noexcept {
+    sweep.row = row;
+    set_lane<lanes>(sweep.entries.data(), row, own_entry);
+    last_sweep_[std::size_t(row)] = sweep_count_;
+    ++sweep_count_;
+  }
 
   /// A number of a row's column after the sweeps from one on.
   Scalar swept(Scalar number, int at, int row, int first) const noexcept {
@@ -101,29 +108,41 @@ class TableByColumns {
     }
     return number;
   }
-  /// Writes the column of a row: what it was before the sweeps from one on, and those; two groups at a time, which share what is the row's own.
+  /// Computes the column of a row.
+  [[gnu::always_inline]] inline Values& make(const Rows& rows, int row, Values& column) const noexcept {
+    const int last = last_sweep_[std::size_t(row)];
+    if (last >= 0) {
+      make_swept(row, last, column);
+    } else {
+      const auto by = rows.scaled_row(row);
+      write(column, row, 0, [&](int k) { return dot_of_six<Group>(rows.at(k), by); });
+    }
+    if (measured_ != 0) repeat_measured(row, last + 1, column);
+    return column;
+  }
+  /// Writes the column of a row: what it was before the sweeps from one on, and those; three groups at a time, which share what is the row's own.
   template <class Before>
   [[gnu::always_inline]] inline void write(Values& column, int row, int first, const Before& before) const noexcept {
     int k = 0;
-    for (; k + lanes < count_; k += 2 * lanes) {
-      Group front = before(k), back = before(k + lanes);
-      for (int t = first; t < sweep_count_; ++t) {
-        const Sweep& sweep = sweeps_[std::size_t(t)];
-        const Group share = spread<Group>(sweep.shares[std::size_t(row)]);
-        front -= product(sweep.entries.at(k), share);
-        back -= product(sweep.entries.at(k + lanes), share);
-      }
-      column.set(k, front);
-      column.set(k + lanes, back);
+    for (; k + 2 * lanes < count_; k += 3 * lanes) write_groups<3>(column, k, row, first, before);
+    if (k + lanes < count_) {
+      write_groups<2>(column, k, row, first, before);
+    } else if (k < count_) {
+      write_groups<1>(column, k, row, first, before);
     }
-    if (k < count_) {
-      Group group = before(k);
-      for (int t = first; t < sweep_count_; ++t) {
-        const Sweep& sweep = sweeps_[std::size_t(t)];
-        group -= product(sweep.entries.at(k), spread<Group>(sweep.shares[std::size_t(row)]));
-      }
-      column.set(k, group);
+  }
+  template <int count, class Before>
+  [[gnu::always_inline]] inline void write_groups(Values& column, int k, int row, int first, const Before& before) const noexcept {
+    std::array<Group, std::size_t(count)> groups;
+#pragma GCC unroll 3
+    for (int g = 0; g < count; ++g) groups[std::size_t(g)] = before(k + g * lanes);
+    for (const Sweep *sweep = &sweeps_[std::size_t(first)], *end = &sweeps_[std::size_t(sweep_count_)]; sweep != end; ++sweep) {
+      const Group share = spread<Group>(sweep->shares[std::size_t(row)]);
+#pragma GCC unroll 3
+      for (int g = 0; g < count; ++g) groups[std::size_t(g)] -= product(sweep->entries.at(k + g * lanes), share);
     }
+#pragma GCC unroll 3
+    for (int g = 0; g < count; ++g) column.set(k + g * lanes, groups[std::size_t(g)]);
   }
   /// The column of a row that was swept itself.
   [[gnu::noinline]]
@@ -139,15 +158,16 @@ class TableByColumns {
   void repeat_measured(int row, int first, Values& column) const noexcept {
     for (int t = first; t < sweep_count_; ++t) {
       const Sweep& own = sweeps_[std::size_t(t)];
-      if (!own.is_measured) continue;
+      if (!is_measured(t)) continue;
       set_lane<lanes>(column.data(), own.row, swept(product(own.entries[std::size_t(row)], own.scale), own.row, row, t + 1));
     }
   }
 
-  std::array<Sweep, std::size_t(most_sweeps)> sweeps_;
+  std::array<Sweep, std::size_t(most_sweeps + 1)> sweeps_;
+  Values leaving_;                                     // the column of the row that leaves
   std::array<int, std::size_t(capacity)> last_sweep_;  // of each row; −1 where it never was swept
   int count_ = 0, sweep_count_ = 0;
-  bool is_measured_ = false, are_some_measured_ = false;  // what is swept next, and what was
+  unsigned measured_ = 0;  // sweeps of columns that were written anew, by bits
 };
 
 }  // namespace feeler::detail

@@ -1,6 +1,7 @@
 // What the force of each of a few rows does to every other, all of it kept.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 
@@ -22,6 +23,7 @@ class WholeTable {
   static constexpr int capacity = 8;
   using Values = RowValues<Scalar, lanes, capacity>;
   using Rows = LowerRows<Scalar, lanes, capacity>;
+  using Group = Lanes<Scalar, lanes>;
 
   void start(const Rows& rows, int count) noexcept {
     count_ = count;
@@ -30,7 +32,7 @@ class WholeTable {
       const auto by = rows.scaled_row(i);
       for (int k = 0; k < count; k += lanes) at(i).set(k, dot_of_six<Group>(rows.at(k), by));
     }
-    for (int k = (count + lanes - 1) / lanes * lanes; k < capacity; k += lanes) {
+    for (int k = (count + lanes - 1) / lanes * lanes; k < (count <= half ? half : capacity); k += lanes) {
       for (int i = 0; i < count; ++i) at(i).set(k, Group{});
     }
   }
@@ -40,17 +42,35 @@ class WholeTable {
   /// A number of the table.
   const Scalar& number_of_swept(int row, int other) const noexcept { return columns_[std::size_t(other)][std::size_t(row)]; }
   /// The column of a row, which stays up to date.
-  Values& column(const Rows&, int row, Values&) noexcept { return at(row); }
-  void follow(int, Values&) const noexcept {}
-  /// Another column was written in the place of one: so are the row's numbers in all others.
-  void replace(int row, const Values& column) noexcept {
-    for (int k = 0; k < count_; ++k) at(k)[std::size_t(row)] = column[std::size_t(k)];
+  Values& column(const Rows&, int row) noexcept { return at(row); }
+  Values& active_column(const Rows&, int row) noexcept { return at(row); }
+  Values& follow(int row) noexcept { return at(row); }
+  /// It was written anew: so are the row's numbers in all others.
+  void replace(int row) noexcept {
+    for (int k = 0; k < count_; ++k) at(k)[std::size_t(row)] = at(row)[std::size_t(k)];
   }
+  void set_shares(int, const Group&) const noexcept {}
   /// Exchanges the force of a row and what the tool moves off it.
-  /// @param column  of the row
-  /// @param scale   of it afterwards
-  void sweep(int row, Values& column, const Scalar& inverse_pivot, const Scalar& scale) noexcept {
+  void enter(int row, const Scalar& inverse_pivot) noexcept { leave(row, inverse_pivot, Scalar(1)); }
+  /// Exchanges them back.
+  /// @param scale  of the row's column afterwards
+  void leave(int row, const Scalar& inverse_pivot, const Scalar& scale) noexcept {
     ++sweeps_;
+    if (count_ <= half) {
+      sweep<half / lanes>(row, inverse_pivot, scale);
+    } else {
+      sweep<capacity / lanes>(row, inverse_pivot, scale);
+    }
+  }
+
+ private:
+  static constexpr int half = std::max(lanes, capacity / 2);
+
+  Values& at(int row) noexcept { return columns_[std::size_t(row)]; }
+
+  template <int groups>
+  [[gnu::always_inline]] inline void sweep(int row, const Scalar& inverse_pivot, const Scalar& scale) noexcept {
+    Values& column = at(row);
     const Scalar pivot = column[std::size_t(row)];
     const Group factor = spread<Group>(inverse_pivot);
     std::array<Group, std::size_t(groups)> entries;
@@ -72,12 +92,6 @@ class WholeTable {
       column.set(g * lanes, with_lane<Scalar, lanes>(c, row - g * lanes, -product(product(pivot, scale), scale)));
     }
   }
-
- private:
-  using Group = Lanes<Scalar, lanes>;
-  static constexpr int groups = capacity / lanes;
-
-  Values& at(int row) noexcept { return columns_[std::size_t(row)]; }
 
   std::array<Values, std::size_t(capacity)> columns_;
   int count_ = 0, sweeps_ = 0;
