@@ -201,7 +201,8 @@ class DualTableau {
     int leaving = -1;
     for (int i = 0; i < active_.rows.size(); ++i) {
       const Scalar share = share_of(i, column);
-      if (share > Scalar(0) && counts(active_.rows[i], share) && multipliers_[index(i)] < product(step, share)) {
+      // Seldom so: the sign of a share, looked at first, would be a branch that no processor foresees.
+      if (multipliers_[index(i)] < product(step, share) && share > Scalar(0) && counts(active_.rows[i], share)) {
         step = multipliers_[index(i)] / share;
         leaving = i;
       }

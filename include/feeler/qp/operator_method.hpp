@@ -258,21 +258,17 @@ class OperatorMethod {
       }
       const bool has_no_step = is_dependent(a, whole, violation, slope);
 
-      const Scalar infinity = std::numeric_limits<Scalar>::infinity();
-      Scalar dual_step = infinity;
+      Scalar step = has_no_step ? std::numeric_limits<Scalar>::infinity() : Scalar(violation / slope);
       int leaving = -1;
       for (int i = 0; i < rows_.size(); ++i) {
         const Scalar& share = operators_.image().share[index(i)];
-        if (share > Scalar(0) && multipliers_[index(i)] < dual_step * share) {
-          dual_step = multipliers_[index(i)] / share;
+        if (multipliers_[index(i)] < step * share && share > Scalar(0)) {  // in this order, which a processor foresees
+          step = multipliers_[index(i)] / share;
           leaving = i;
         }
       }
-      if (has_no_step && leaving < 0) return conclude_conflict(problem, row, a, solution);
-
-      const Scalar full_step = has_no_step ? infinity : Scalar(violation / slope);
-      const bool is_full = full_step <= dual_step;
-      const Scalar step = is_full ? full_step : dual_step;
+      const bool is_full = leaving < 0;
+      if (has_no_step && is_full) return conclude_conflict(problem, row, a, solution);
       if (!has_no_step) move(step);
       multiplier += step;
       if (is_full) {
