@@ -178,6 +178,16 @@ inline Lanes<Scalar, lanes> with_lane(const Lanes<Scalar, lanes>& group, int lan
   }
 }
 
+/// A number that was written alone a moment ago and goes into a group of so many: of neighbours compilers make one load, which waits until memory has
+/// all of them.
+template <int lanes, class Scalar>
+[[gnu::always_inline]] inline Scalar read_alone(Scalar number) noexcept {
+#if defined(__GNUC__) && defined(__AVX__)
+  if constexpr (has_lanes<Scalar> && lanes > 2) __asm__("" : "+x"(number));
+#endif
+  return number;
+}
+
 /// The number of one lane in every lane.
 template <class Scalar, int lanes, int lane>
 inline Lanes<Scalar, lanes> spread_lane(const Lanes<Scalar, lanes>& group) noexcept {

@@ -90,13 +90,18 @@ class DualActiveSet {
   [[gnu::always_inline]] inline bool is_right(const Problem& problem, const WarmStart& known, int iterations, Solution& solution) noexcept {
     using std::isfinite;
     const Six& x = guess_.x();
-    if (Scan::is_violated(problem, problem.bounds.data(), x, tolerance)) return false;
+    if (!is_met(problem, known)) return false;
     Six residual;  // is finite where x is
     if (look(problem).is_off(inverse_, gradient_, x, known.rows, guess_.multipliers(), guess_.force(), guess_.lacking(), guess_.beside(), residual) ||
         !isfinite(detail::size_of(residual)))
       return false;
     hand_over(known, iterations, solution);
     return true;
+  }
+  /// Whether x meets all rows; that it meets the only one which there is is known already.
+  [[gnu::always_inline]] inline bool is_met(const Problem& problem, const WarmStart& known) const noexcept {
+    if (problem.row_count == 1 && known.rows.size() == 1) return guess_.lacking()[0] <= tolerance;
+    return !Scan::is_violated(problem, problem.bounds.data(), guess_.x(), tolerance);
   }
   /// @param rows  that hold at the guess
   [[gnu::always_inline]] inline void hand_over(const WarmStart& rows, int iterations, Solution& solution) const noexcept {

@@ -50,7 +50,7 @@ class HeldRows {
   /// Of as many numbers as there are rows; 0 behind them.
   template <class Numbers>
   [[gnu::always_inline]] Values values(const Numbers& numbers) const noexcept {
-    return only_rows(in_groups([&](std::size_t i) { return i < 6 ? numbers[i < 6 ? i : 0] : Scalar(0); }));
+    return only_rows(in_groups([&](std::size_t i) { return i < 6 ? read_alone<lanes>(numbers[i < 6 ? i : 0]) : Scalar(0); }));
   }
   /// The values, and 0 behind them.
   [[gnu::always_inline]] Values only_rows(Values values) const noexcept {
