@@ -59,7 +59,7 @@ class TableByColumns {
     Sweep& sweep = next();
     sweep.pivot = sweep.entries[std::size_t(row)];
     sweep.scale = Scalar(1);
-    end(sweep, row, Scalar(0));
+    finish(sweep, row, Scalar(0));
   }
 
   /// Computes the column of an active row.
@@ -78,7 +78,7 @@ class TableByColumns {
     if (is_measured(sweep_count_)) measured_ ^= 3u << sweep_count_;
     sweep.pivot = leaving_[std::size_t(row)];
     sweep.scale = scale;
-    end(sweep, row, sweep.pivot - product(sweep.pivot, scale));
+    finish(sweep, row, sweep.pivot - product(sweep.pivot, scale));
   }
 
  private:
@@ -93,7 +93,7 @@ class TableByColumns {
 
   bool is_measured(int sweep) const noexcept { return (measured_ >> sweep & 1u) != 0; }
   Sweep& next() noexcept { return sweeps_[std::size_t(sweep_count_)]; }
-  void end(Sweep& sweep, int row, const Scalar& own_entry) noexcept {
+  void finish(Sweep& sweep, int row, const Scalar& own_entry) noexcept {
     sweep.row = row;
     set_lane<lanes>(sweep.entries.data(), row, own_entry);
     last_sweep_[std::size_t(row)] = sweep_count_;

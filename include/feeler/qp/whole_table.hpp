@@ -51,10 +51,17 @@ class WholeTable {
   }
   void set_shares(int, const Group&) const noexcept {}
   /// Exchanges the force of a row and what the tool moves off it.
-  void enter(int row, const Scalar& inverse_pivot) noexcept { leave(row, inverse_pivot, Scalar(1)); }
+  void enter(int row, const Scalar& inverse_pivot) noexcept { exchange(row, inverse_pivot, Scalar(1)); }
   /// Exchanges them back.
   /// @param scale  of the row's column afterwards
-  void leave(int row, const Scalar& inverse_pivot, const Scalar& scale) noexcept {
+  void leave(int row, const Scalar& inverse_pivot, const Scalar& scale) noexcept { exchange(row, inverse_pivot, scale); }
+
+ private:
+  static constexpr int half = std::max(lanes, capacity / 2);
+
+  Values& at(int row) noexcept { return columns_[std::size_t(row)]; }
+
+  void exchange(int row, const Scalar& inverse_pivot, const Scalar& scale) noexcept {
     ++sweeps_;
     if (count_ <= half) {
       sweep<half / lanes>(row, inverse_pivot, scale);
@@ -62,12 +69,6 @@ class WholeTable {
       sweep<capacity / lanes>(row, inverse_pivot, scale);
     }
   }
-
- private:
-  static constexpr int half = std::max(lanes, capacity / 2);
-
-  Values& at(int row) noexcept { return columns_[std::size_t(row)]; }
-
   template <int groups>
   [[gnu::always_inline]] inline void sweep(int row, const Scalar& inverse_pivot, const Scalar& scale) noexcept {
     Values& column = at(row);
