@@ -16,6 +16,7 @@ namespace feeler::detail {
 /// The table of `DualTableau` where rows are some more: a column is computed when it is asked for, from the rows and from all sweeps so far.
 ///
 /// A column is Aᵀ's product with a row, less an outer product's share for every sweep, and a row that was swept itself begins with its own sweep.
+/// The column of the row that may become active is written where its sweep is kept when it does.
 /// Beyond 24 rows the operators in six dimensions are as fast, as they follow rows in single precision.
 template <RealScalar Scalar, int lanes>
 class TableByColumns {
