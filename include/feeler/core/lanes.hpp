@@ -8,7 +8,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
-#include <memory>
 #include <type_traits>
 #include <utility>
 
@@ -224,6 +223,7 @@ inline Scalar sum_of_lanes(const Lanes<Scalar, lanes>& group) noexcept {
     }(std::make_integer_sequence<int, lanes / 2>{});
   }
 }
+
 /// Sets one of some numbers that are read in groups.
 template <int lanes, class Scalar>
 inline void set_lane(Scalar* numbers, int i, const Scalar& value) noexcept {

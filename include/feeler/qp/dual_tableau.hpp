@@ -259,9 +259,10 @@ class DualTableau {
     const Scalar pivot = own[index(row)], inverse = Scalar(1) / pivot, scale = Scalar(-1) / product(units_[index(leaving)], pivot);
     const Group step = spread<Group>(length), factor = spread<Group>(inverse);
     for (int k = 0; k < count_; k += lanes) {
-      const Group c = own.at(k);
+      const Group c = own.at(k), shares = product(factor, c);
       violation_.set(k, violation_.at(k) - product(step, column.at(k)));
-      set_weights(k, Group(weight_.at(k) - product(product(factor, c), c)));
+      set_weights(k, Group(weight_.at(k) - product(shares, c)));
+      table_.set_shares(k, shares);
     }
     table_.leave(row, inverse, scale);
     violation_[index(row)] = Scalar(0);

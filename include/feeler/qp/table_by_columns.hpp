@@ -53,7 +53,7 @@ class TableByColumns {
   }
   /// It was written anew.
   void replace(int) noexcept { measured_ |= 1u << sweep_count_; }
-  /// Its shares of a group, when it is divided by the row's number.
+  /// The shares of a group in the column that enters or leaves next: its numbers, divided by the row's own.
   [[gnu::always_inline]] void set_shares(int k, const Group& shares) noexcept { next().shares.set(k, shares); }
   /// Exchanges the force of the row and what the tool moves off it.
   void enter(int row, const Scalar&) noexcept {
@@ -67,14 +67,12 @@ class TableByColumns {
   Values& active_column(const Rows& rows, int row) noexcept { return make(rows, row, leaving_); }
   /// Exchanges back its force and what the tool moves off it; the column of a row that may become active stays.
   /// @param scale  of the row's own column afterwards
-  void leave(int row, const Scalar& inverse_pivot, const Scalar& scale) noexcept {
+  void leave(int row, const Scalar&, const Scalar& scale) noexcept {
     Sweep& sweep = next();
     Values& entering = sweeps_[std::size_t(sweep_count_ + 1)].entries;
-    const Group factor = spread<Group>(inverse_pivot);
     for (int k = 0; k < count_; k += lanes) {
       entering.set(k, sweep.entries.at(k));
       sweep.entries.set(k, leaving_.at(k));
-      sweep.shares.set(k, product(factor, leaving_.at(k)));
     }
     if (is_measured(sweep_count_)) measured_ ^= 3u << sweep_count_;
     sweep.pivot = leaving_[std::size_t(row)];
