@@ -14,7 +14,10 @@
 namespace feeler::detail {
 
 /// Of a row's weight with nothing active, as which it is weighed where active rows leave less of it free to move.
-constexpr double least_share = 1e-3;
+///
+/// Rows around the rim of a peg all but depend on their active neighbour: with a smaller share each takes its neighbour's place, one by one; with a
+/// larger one pricing forgets how far a step leads.
+constexpr double least_share = 5e-3;
 
 /// Angle that a row makes with the span of active ones, in the metric of H⁻¹, below which it depends on them: rounding leaves no more of one that is
 /// projected twice [rad].

@@ -24,9 +24,9 @@ namespace feeler::detail {
 /// A row's violation is bₖ − aₖ·x and its weight aₖᵀPaₖ, with P the inverse Hessian projected off the active
 /// rows. Both follow x and P by one product with each row: a step along z changes aₖ·x by a multiple of aₖ·z,
 /// and adding or dropping a row changes P by a multiple of zzᵀ. A row that hardly moves is weighed as a
-/// thousandth of what it was with nothing active. Source: J. J. Forrest, D. Goldfarb, "Steepest-edge simplex
-/// algorithms for linear programming", Mathematical Programming 57 (1992), the dual algorithms of section 3,
-/// for their counterpart in linear programs. A row is computed in one lane by the same operations in the same
+/// two hundredth of what it was with nothing active (`least_share`). Source: J. J. Forrest, D. Goldfarb,
+/// "Steepest-edge simplex algorithms for linear programming", Mathematical Programming 57 (1992), the dual
+/// algorithms of section 3, for their counterpart in linear programs. A row is computed in one lane by the same operations in the same
 /// order, however many lanes there are.
 ///
 /// All this only says which row to look at next, and for that few digits do: the rows of a problem in `double`
