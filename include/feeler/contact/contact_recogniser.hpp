@@ -6,8 +6,9 @@
 #include <cmath>
 #include <limits>
 
-#include "feeler/contact/constraint_plane.hpp"
 #include "feeler/contact/contact_formation.hpp"
+#include "feeler/contact/contact_measures.hpp"
+#include "feeler/contact/contact_spots.hpp"
 #include "feeler/contact/contact_witness.hpp"
 #include "feeler/contact/feature_neighbours.hpp"
 #include "feeler/contact/principal_contact.hpp"
@@ -16,6 +17,7 @@
 #include "feeler/core/requirement.hpp"
 #include "feeler/object/surface_features.hpp"
 #include "feeler/object/triangle_mesh.hpp"
+#include "feeler/proximity/closest_on_segment.hpp"
 #include "feeler/spatial/pose.hpp"
 #include "feeler/tool/convex_tool.hpp"
 #include "feeler/tool/swept_tool.hpp"
@@ -81,7 +83,7 @@ class ContactRecogniser {
     keep_maximal();
     restore_valleys();
     close_sharp_valleys();
-    find_spots();
+    number_spots();
     write_contacts();
     return formation_;
   }
@@ -94,10 +96,7 @@ class ContactRecogniser {
  private:
   using Witness = ContactWitness<Scalar>;
   using Set = typename ContactWitnesses<Scalar>::Set;
-  struct Candidate {
-    Feature tool;
-    Feature object;
-    Set witnesses;
+  struct Candidate : TouchingFeatures<Scalar> {
     bool touches = false;  // false for a pair that only leads to larger ones
   };
   static constexpr int candidate_capacity = 256;
@@ -115,7 +114,7 @@ class ContactRecogniser {
 
   void add_candidate(const Feature& tool, const Feature& object, bool is_witness) noexcept {
     if (has(candidates_, tool, object)) return;
-    Candidate candidate{tool, object, witnesses_.within(tool_incidence_, tool, surface_.incidence(), object), true};
+    Candidate candidate{{tool, object, witnesses_.within(tool_incidence_, tool, surface_.incidence(), object)}, true};
     if (!is_witness) {
       const bool is_area = tool.kind == FeatureKind::face && object.kind == FeatureKind::face;
       candidate.touches = witnesses_.dimension(candidate.witnesses, 2 * tolerance_) >= (is_area ? 2 : 1);
@@ -155,7 +154,7 @@ class ContactRecogniser {
     rest_.clear();
     for (const Candidate& part : parts_) {
       if (part.object.kind == FeatureKind::face) continue;
-      const SurfaceSide side = side_at(part);
+      const SurfaceSide side = measures().side_at(part);
       for_each_valley(part.object, side, [&](int valley) {
         const auto faces = surface_.incidence().edge_faces(valley);
         const bool first = is_covered(part.tool, faces[0]), second = is_covered(part.tool, faces[1]);
@@ -164,7 +163,7 @@ class ContactRecogniser {
                                : second ? Feature{FeatureKind::face, faces[0]}
                                         : Feature{FeatureKind::edge, valley};
         if (has(contacts_, part.tool, object) || has(rest_, part.tool, object)) return;
-        if (!rest_.push_back({part.tool, object, part.witnesses, true})) ++formation_.dropped_contacts;
+        if (!rest_.push_back({{part.tool, object, part.witnesses}, true})) ++formation_.dropped_contacts;
       });
     }
     for (const Candidate& extra : rest_) {
@@ -191,7 +190,7 @@ class ContactRecogniser {
       if (!tool_incidence_.contains(contact.tool, tool)) return false;
       if (contact.object.kind == FeatureKind::face) return contact.object.index == face;
       const bool is_beside = surface_.incidence().contains({FeatureKind::face, face}, contact.object);
-      return is_beside && surface_.convexity(contact.object, side_at(contact)) == Convexity::concave;
+      return is_beside && surface_.convexity(contact.object, measures().side_at(contact)) == Convexity::concave;
     });
   }
 
@@ -215,7 +214,7 @@ class ContactRecogniser {
   /// The concave edge of two faces, or the concave vertex of a face and an edge or of two edges, near a place of touching.
   bool find_valley(const Candidate& a, const Candidate& b, Feature& valley) const noexcept {
     const FeatureIncidence& incidence = surface_.incidence();
-    const SurfaceSide side = side_at(a.object.kind == FeatureKind::face ? a : b);
+    const SurfaceSide side = measures().side_at(a.object.kind == FeatureKind::face ? a : b);
     const auto is_near = [&](const Feature& feature) {
       if (surface_.convexity(feature, side) != Convexity::concave) return false;
       bool found = false;
@@ -249,56 +248,18 @@ class ContactRecogniser {
     return false;
   }
 
-  /// The side of the object's feature that the tool is on.
-  SurfaceSide side_at(const Candidate& contact) const noexcept {
-    const Vector point = mean_point(contact.witnesses);
-    return side_of_tool<MeshScalar>(surface_, contact.object, MeshScalar(tolerance_ / 100), [&](const auto& visit) {
-      for (int i = 0; i < search_.tool().vertex_count(); ++i)
-        visit(Vector3<MeshScalar>((search_.vertex(i) - point).template cast<MeshScalar>()));
-    });
-  }
-  Vector mean_point(const Set& set) const noexcept {
-    Vector sum = Vector::Zero();
-    int count = 0;
-    witnesses_.for_each(set, [&](const Witness& w) {
-      sum += w.on_object;
-      ++count;
-    });
-    return sum / Scalar(std::max(count, 1));
-  }
-
-  /// Numbers the places of touching so that witnesses close together, directly or by way of others, have one number.
-  void find_spots() noexcept {
-    const int count = witnesses_.size();
-    const Scalar reach_squared = 16 * tolerance_ * tolerance_;
-    for (int i = 0; i < count; ++i) spots_[std::size_t(i)] = i;
-    for (int i = 0; i < count; ++i)
-      for (int j = 0; j < i; ++j)
-        if ((witnesses_[i].on_object - witnesses_[j].on_object).squaredNorm() <= reach_squared) join_spots(i, j);
-    for (const Candidate& contact : contacts_) {
-      int first = -1;
-      for (int i = 0; i < count; ++i) {
-        if (!contact.witnesses[std::size_t(i)]) continue;
-        if (first >= 0) join_spots(first, i);
-        first = i;
-      }
-    }
-  }
-  int spot_of(int witness) const noexcept {
-    while (spots_[std::size_t(witness)] != witness) witness = spots_[std::size_t(witness)];
-    return witness;
-  }
-  void join_spots(int a, int b) noexcept {
-    const int first = spot_of(a), second = spot_of(b);
-    spots_[std::size_t(std::max(first, second))] = std::min(first, second);
+  void number_spots() noexcept {
+    spots_.start(witnesses_, 4 * tolerance_);
+    for (const Candidate& contact : contacts_) spots_.join(contact.witnesses);
   }
 
   void write_contacts() noexcept {
+    const auto measures = this->measures();
     for (const Candidate& candidate : contacts_) {
-      Contact contact = contact_of(candidate);
+      Contact contact = measures.contact_of(candidate);
       int first = 0;
       while (!candidate.witnesses[std::size_t(first)]) ++first;
-      contact.region = spot_of(first);
+      contact.region = spots_.of(first);
       const bool is_known = std::any_of(formation_.begin(), formation_.end(), [&](const Contact& c) { return c.has_features_of(contact); });
       if (!is_known && !formation_.contacts.push_back(contact)) ++formation_.dropped_contacts;
     }
@@ -312,91 +273,7 @@ class ContactRecogniser {
     }
   }
 
-  Contact contact_of(const Candidate& candidate) const noexcept {
-    const SurfaceSide side = side_at(candidate);
-    const Vector point = mean_point(candidate.witnesses);
-    const Convexity shape = surface_.convexity(candidate.object, side);
-    Contact contact;
-    contact.tool = candidate.tool;
-    contact.object = candidate.object;
-    contact.type = principal_contact_type(candidate.tool.kind, candidate.object.kind, shape);
-    // A cell that the table leaves out got the type of a smaller tool feature.
-    if (contact.type == PrincipalContactType::edge_concave_edge) contact.tool = smaller(candidate, FeatureKind::edge);
-    if (contact.type == PrincipalContactType::vertex_concave_vertex) contact.tool = smaller(candidate, FeatureKind::vertex);
-    contact.point_world = point + search_.origin();
-    contact.normal_world = normal_of(candidate, side, shape);
-    contact.gap = gap_of(candidate, side, shape, contact.normal_world);
-    return contact;
-  }
-
-  /// The vertex or edge of a tool feature nearest to the first witness.
-  Feature smaller(const Candidate& candidate, FeatureKind kind) const noexcept {
-    if (candidate.tool.kind == kind) return candidate.tool;
-    const Vector point = mean_point(candidate.witnesses);
-    Feature best = candidate.tool;
-    Scalar least = std::numeric_limits<Scalar>::infinity();
-    const auto consider = [&](int index, const Vector& closest) {
-      const Feature feature{kind, index};
-      const Scalar distance_squared = (closest - point).squaredNorm();
-      if (!tool_incidence_.contains(candidate.tool, feature) || !(distance_squared < least)) return;
-      least = distance_squared;
-      best = feature;
-    };
-    const Tool& tool = search_.tool();
-    if (kind == FeatureKind::vertex)
-      for (int i = 0; i < tool.vertex_count(); ++i) consider(i, search_.vertex(i));
-    else
-      for (int e = 0; e < tool.edge_count(); ++e)
-        consider(e, closest_on_segment<Scalar>(point, search_.vertex(tool.edge(e).start), search_.vertex(tool.edge(e).end)));
-    return best;
-  }
-
-  /// Unit normal from the object to the tool: of the face that takes part, the object's first; of two edges by eq. 7; in a valley the sum
-  /// of its faces' normals; else along the line of closest points, or, where they coincide, the sum of the normals of the faces around.
-  Vector normal_of(const Candidate& candidate, SurfaceSide side, Convexity shape) const noexcept {
-    const auto wide = [](const auto& v) { return Vector(v.template cast<Scalar>()); };
-    if (candidate.object.kind == FeatureKind::face) return wide(face_plane(surface_, candidate.object.index, side).normal);
-    if (candidate.tool.kind == FeatureKind::face) return -search_.face_normal(candidate.tool.index);
-    Vector sum = Vector::Zero();
-    for (const auto& plane : planes_around(surface_, candidate.object, side)) sum += wide(plane.normal);
-    if (shape == Convexity::concave && !sum.isZero()) return sum.normalized();
-    Vector between = Vector::Zero(), away = Vector::Zero();
-    const Vector point = mean_point(candidate.witnesses);
-    witnesses_.for_each(candidate.witnesses, [&](const Witness& w) { between += w.on_tool - w.on_object; });
-    for (int i = 0; i < search_.tool().vertex_count(); ++i) away += search_.vertex(i) - point;
-    if (candidate.tool.kind == FeatureKind::edge && candidate.object.kind == FeatureKind::edge) {
-      const auto& edge = surface_.edge(candidate.object.index);
-      const auto ends = search_.tool().edge(candidate.tool.index);
-      const Vector along_object = wide(Vector3<MeshScalar>(edge.end - edge.start)).normalized();
-      const Vector along_tool = (search_.vertex(ends.end) - search_.vertex(ends.start)).normalized();
-      // A segment has no bulk beside its edge: then the outside of the ridge tells the side.
-      const Vector toward = has_bulk() ? away : sum.isZero() ? between : sum;
-      if (along_object.cross(along_tool).norm() > Scalar(1e-6)) return edge_edge_plane(along_object, along_tool, point, toward).normal;
-    }
-    if (between.norm() > tolerance_ / 1000) return between.normalized();
-    if (sum.norm() > Scalar(1e-6)) return sum.normalized();
-    return away.norm() > Scalar(0) ? Vector(away.normalized()) : Vector(Vector::UnitZ());
-  }
-  bool has_bulk() const noexcept { return search_.tool().face_count() > 0; }
-
-  /// Least height of the witnesses: over the planes that meet in a valley, along the normal where a face or two edges define it, else the
-  /// distance.
-  Scalar gap_of(const Candidate& candidate, SurfaceSide side, Convexity shape, const Vector& normal) const noexcept {
-    Scalar least = std::numeric_limits<Scalar>::infinity();
-    const bool is_face = candidate.tool.kind == FeatureKind::face || candidate.object.kind == FeatureKind::face;
-    const bool is_edges = candidate.tool.kind == FeatureKind::edge && candidate.object.kind == FeatureKind::edge;
-    witnesses_.for_each(candidate.witnesses, [&](const Witness& w) {
-      if (is_face || is_edges) {
-        least = std::min(least, normal.dot(w.on_tool - w.on_object));
-      } else if (shape != Convexity::concave) {
-        least = std::min(least, (w.on_tool - w.on_object).norm());
-      }
-      if (shape != Convexity::concave || is_face) return;
-      for (const auto& plane : planes_around(surface_, candidate.object, side))
-        least = std::min(least, Scalar(plane.normal.template cast<Scalar>().dot(w.on_tool - search_.local(plane.point))));
-    });
-    return least;
-  }
+  ContactMeasures<Tool, MeshScalar> measures() const noexcept { return {surface_, search_, tool_incidence_, witnesses_, tolerance_}; }
 
   const SurfaceFeatures<MeshScalar>& surface_;
   WitnessSearch<Tool, MeshScalar> search_;
@@ -405,7 +282,7 @@ class ContactRecogniser {
 
   ContactWitnesses<Scalar> witnesses_;
   Candidates candidates_, contacts_, parts_, rest_;
-  std::array<int, std::size_t(ContactWitnesses<Scalar>::capacity)> spots_{};
+  ContactSpots<Scalar> spots_;
   Formation formation_;
 };
 

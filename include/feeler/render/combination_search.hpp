@@ -6,6 +6,7 @@
 #include <limits>
 #include <utility>
 
+#include "feeler/contact/candidate_constraint.hpp"
 #include "feeler/contact/local_search.hpp"
 #include "feeler/core/fixed_vector.hpp"
 #include "feeler/qp/problem.hpp"

@@ -9,11 +9,10 @@
 #include "feeler/core/fixed_vector.hpp"
 #include "feeler/core/scalar.hpp"
 #include "feeler/object/surface_walk.hpp"
-#include "feeler/object/triangle_normal.hpp"
 #include "feeler/proximity/highest_corner.hpp"
 #include "feeler/proximity/motion.hpp"
-#include "feeler/proximity/separation.hpp"
 #include "feeler/proximity/sweep.hpp"
+#include "feeler/render/closest_points_of_pair.hpp"
 #include "feeler/render/kept_contacts.hpp"
 #include "feeler/render/rendered_scene.hpp"
 #include "feeler/render/step_problem.hpp"
@@ -377,10 +376,10 @@ class Linearisation {
   }
   static Standing standing_of(const Scene& scene, const Pair& pair) noexcept { return {certified_gap(scene, pair), pair.is_tight, pair.is_spare()}; }
 
-  /// Closest points of a pair, as `closest_points`, and what is remembered of them.
+  /// Closest points of a pair, as `closest_points_of`, and what is remembered of them.
   static ClosestPoints<Scalar> query(const Scene& scene, Pair& pair, const Matrix3<Scalar>& corners, const Matrix3<Scalar>& axes, bool is_at_start,
                                      Tick<MeshScalar>& tick) noexcept {
-    const auto closest = closest_points(scene, corners, axes, pair, is_at_start);
+    const auto closest = closest_points_of(pair, scene, corners, axes, is_at_start);
     ++tick.work;
     pair.last_normal = axes * closest.normal;
     if (is_at_start) pair.set_plane(pair.last_normal, closest.distance);
@@ -391,39 +390,6 @@ class Linearisation {
   void keep_if_touching(const Scene& scene, const Row& row, const Pair& pair) noexcept {
     const bool touches = row.gap > scene.margin() / 1000 && row.gap < touching(scene);
     if (touches && !pair.is_tight && !row.is_assumed) kept_.add(row, certified_gap(scene, pair));
-  }
-
-  /// Closest points of a pair, with the corners in the tool frame of a pose with the axes given. On the way the tool may overlap it; then the
-  /// plane it had at the start says which features meet.
-  static ClosestPoints<Scalar> closest_points(const Scene& scene, const Matrix3<Scalar>& corners, const Matrix3<Scalar>& axes, Pair& pair,
-                                              [[maybe_unused]] bool is_at_start) noexcept {
-    const Piece& piece = scene.piece(pair.piece);
-    ClosestPoints<Scalar> closest = gjk(piece, corners, pair.features, scene.clearance().touching);
-    pair.features = closest.features;
-    if (!closest.is_touching) return closest;
-    if constexpr (!SweptTool<Piece>) {  // whose core touches nothing but on the way, and there by far
-      if (is_at_start || pair.slack < 2 * scene.clearance().touching) {
-        return separation_of_touching(piece, corners, closest, scene.clearance().allowance);
-      }
-    }
-    closest.normal = axes.transpose() * pair.normal;
-    closest.distance = separation_along(piece, corners, closest.normal);
-    if (pair.is_ghost) prefer_own_plane(piece, corners, scene.clearance().touching, closest);
-    closest.features = {};
-    closest.tool_point = piece.vertex(piece.support(Vector3<Scalar>(-closest.normal)));
-    return closest;
-  }
-
-  /// The plane of a triangle, where it parts the tool from it but for a touch, and better than the one given.
-  static void prefer_own_plane(const Piece& piece, const Matrix3<Scalar>& corners, Scalar touching, ClosestPoints<Scalar>& closest) noexcept {
-    const Vector3<Scalar> normal = triangle_normal<Scalar>(corners.col(0), corners.col(1), corners.col(2));
-    if (normal.isZero()) return;
-    for (const Vector3<Scalar>& own : {normal, Vector3<Scalar>(-normal)}) {
-      const Scalar distance = separation_along(piece, corners, own);
-      if (!(distance > -touching) || !(distance > closest.distance)) continue;
-      closest.normal = own;
-      closest.distance = distance;
-    }
   }
 
   /// @param features  to start its first query from

@@ -1,0 +1,124 @@
+// The surface of an object around a triangle that a tool is close to: what tells a contact from a ghost.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+
+#include "feeler/core/scalar.hpp"
+#include "feeler/object/normal_cone.hpp"
+#include "feeler/object/surface_walk.hpp"
+#include "feeler/object/triangle_mesh.hpp"
+#include "feeler/proximity/gjk.hpp"
+
+namespace feeler {
+
+/// Where on a triangle the closest point to a tool is.
+struct PlaceOnTriangle {
+  int corners;  ///< that it is between; of overlapping shapes none
+  int index;    ///< of the corner, if one, or the edge, if two
+};
+template <RealScalar Scalar>
+PlaceOnTriangle place_on_triangle(const ClosestPoints<Scalar>& closest) noexcept {
+  std::array<bool, 3> used{};
+  for (std::size_t i = 0; i < std::size_t(closest.features.size); ++i) used[std::size_t(closest.features.corners[i])] = true;
+  const int count = int(used[0]) + int(used[1]) + int(used[2]);
+  if (count == 1) return {count, used[0] ? 0 : used[1] ? 1 : 2};
+  return {count, !used[2] ? 0 : !used[0] ? 1 : 2};
+}
+
+/// The mesh around one of its triangles, asked in the frame of a tool.
+///
+/// A contact whose normal lies outside the normal cone of the mesh there is a ghost: a neighbour is nearer.
+template <RealScalar Scalar, RealScalar MeshScalar>
+class SurfaceAround {
+ public:
+  using Vector = Vector3<Scalar>;
+
+  /// Sine by which a direction may leave a cone, or a plane another one.
+  static constexpr Scalar tolerance = Scalar(1e-6);
+
+  /// @param world_from_tool  axes of the tool; kept by reference, here and below
+  /// @param seam             a point so little beside a face counts as over it [m]
+  SurfaceAround(const TriangleMesh<MeshScalar>& mesh, const Matrix3<Scalar>& world_from_tool, Scalar seam) noexcept
+      : mesh_(mesh), world_from_tool_(world_from_tool), seam_(seam) {}
+
+  void stand_on(int triangle) noexcept { triangle_ = triangle; }
+
+  bool is_flat_across(int edge) const noexcept { return mesh_.topology().edge_convexity(triangle_, edge) == Convexity::flat; }
+  /// Across an edge; negative where there is not exactly one.
+  int neighbour(int edge) const noexcept { return mesh_.topology().neighbour(triangle_, edge); }
+
+  /// Whether a normal is in the normal cone of the mesh at a corner, or an edge.
+  bool is_in_vertex_cone(int corner, const Vector& normal) const noexcept {
+    return vertex_cone_contains(mesh_, mesh_.triangle(triangle_)[std::size_t(corner)], direction_of(normal), MeshScalar(tolerance));
+  }
+  bool is_in_edge_cone(int edge, const Vector& normal) const noexcept {
+    return edge_cone_contains(mesh_, triangle_, edge, direction_of(normal), MeshScalar(tolerance));
+  }
+  // In a patch the triangle itself may rise a little from one of its features to the next; both hold the tool. Its neighbours may not.
+  bool is_clear_of_neighbours_at_corner(int corner, const Vector& normal) const noexcept {
+    return neighbours_point_away(mesh_, triangle_, corner, direction_of(normal), MeshScalar(tolerance));
+  }
+  bool is_clear_of_neighbour_across(int edge, const Vector& normal) const noexcept {
+    return neighbour_points_away(mesh_, triangle_, edge, direction_of(normal), MeshScalar(tolerance));
+  }
+  /// A neighbour that is nearer to a tool in the direction of a normal outside the cone, or -1.
+  int nearer_neighbour(const PlaceOnTriangle& place, const Vector& normal) const noexcept {
+    if (place.corners == 1) return triangle_along(mesh_, triangle_, place.index, direction_of(normal));
+    if (place.corners == 2) return std::max(neighbour(place.index), -1);
+    return -1;
+  }
+
+  /// Whether a point that may lie beside the triangle is over the flat part of the surface that it belongs to; past its rim nothing holds.
+  /// @param corner  the triangle's first [m]
+  [[gnu::flatten, gnu::noinline]]
+  bool is_under(const Vector& point, const Vector& corner) const noexcept {
+    constexpr int longest_walk = 16;
+    const Vector origin = mesh_.vertex(mesh_.triangle(triangle_)[0]).template cast<Scalar>();
+    const Vector point_world = world_from_tool_ * (point - corner) + origin;
+    int triangle = triangle_;
+    for (int step = 0; step < longest_walk; ++step) {
+      const int edge = edge_towards(mesh_, triangle, point_world, seam_);
+      if (edge < 0) return true;
+      if (mesh_.topology().edge_convexity(triangle, edge) != Convexity::flat) return false;
+      triangle = mesh_.topology().neighbour(triangle, edge);
+    }
+    return true;
+  }
+
+  /// Whether the mesh rises from the plane of the triangle, on the side of a normal, across an edge.
+  bool rises_across(int edge, const Vector& normal) const noexcept {
+    const int other = neighbour(edge);
+    if (other < 0) return false;
+    const Vector normal_world = world_from_tool_ * normal;
+    const Vector start_world = mesh_.vertex(mesh_.triangle(triangle_)[std::size_t(edge)]).template cast<Scalar>();
+    const auto& corners = mesh_.triangle(other);
+    return std::any_of(corners.begin(), corners.end(), [&](int corner) {
+      const Vector along = mesh_.vertex(corner).template cast<Scalar>() - start_world;
+      return normal_world.dot(along) > tolerance * along.norm();
+    });
+  }
+  /// Whether another triangle lies in the plane of this one.
+  /// @param face_normal  of this one
+  bool is_in_plane(int other, const Vector& face_normal) const noexcept {
+    const Vector normal_world = world_from_tool_ * face_normal;
+    const Vector start_world = mesh_.vertex(mesh_.triangle(triangle_)[0]).template cast<Scalar>();
+    const auto& corners = mesh_.triangle(other);
+    return std::all_of(corners.begin(), corners.end(), [&](int corner) {
+      const Vector along = mesh_.vertex(corner).template cast<Scalar>() - start_world;
+      return std::abs(normal_world.dot(along)) <= tolerance * along.norm();
+    });
+  }
+
+ private:
+  Vector3<MeshScalar> direction_of(const Vector& normal) const noexcept { return (world_from_tool_ * normal).template cast<MeshScalar>(); }
+
+  const TriangleMesh<MeshScalar>& mesh_;
+  const Matrix3<Scalar>& world_from_tool_;
+  Scalar seam_;
+  int triangle_ = -1;
+};
+
+}  // namespace feeler
