@@ -3,25 +3,19 @@
 #include <boost/test/unit_test.hpp>
 
 #include <cmath>
-#include <random>
 #include <set>
 
-#include "feeler/spatial/twist.hpp"
 #include "feeler/tool/box.hpp"
 #include "feeler/tool/segment.hpp"
 #include "scenes/cavity.hpp"
-#include "support/random_geometry.hpp"
 
 BOOST_AUTO_TEST_SUITE(local_search)
 
-using feeler::CandidateConstraint;
 using feeler::FeaturePair;
 using feeler::LocalSearch;
 using feeler::Pose;
 using feeler::RegionCandidates;
-using feeler::Vector6;
 using Vector = feeler::Vector3<double>;
-using namespace feeler_test;
 
 namespace {
 
@@ -102,40 +96,6 @@ BOOST_AUTO_TEST_CASE(a_room_is_one_piece_of_all_walls_in_reach) {
     BOOST_TEST(region.candidates.size() == 1);
     BOOST_TEST(planes(mesh, region.candidates[0]) >= 5u);
   }
-}
-
-BOOST_AUTO_TEST_CASE(rows_are_the_derivatives_of_their_gaps) {
-  constexpr unsigned seed = 4;
-  BOOST_TEST_MESSAGE("seed " << seed);
-  std::mt19937 bits(seed);
-  const auto mesh = roof(1);
-  const feeler::Box<double> tool(Vector(0.01, 0.02, 0.03));
-  int checked = 0;
-  for (int i = 0; i < 3000; ++i) {
-    const Pose<double> pose{0.05 * random_vector(bits), random_rotation(bits)};
-    const auto kind = FeaturePair(below(bits, 3));
-    const int features = kind == FeaturePair::vertex_face ? 8 : kind == FeaturePair::face_vertex ? 6 : 12;
-    const CandidateConstraint constraint{kind, below(bits, features), below(bits, 4), below(bits, 3),
-                                         below(bits, 2) == 0};
-    const auto row = row_of(constraint, tool, mesh, pose, pose.translation);
-    if (kind == FeaturePair::edge_edge) {
-      const double sine = row.object_edge.cross(row.tool_edge).norm();
-      // Near parallel, and where the way out lies along the faces, the plane turns fast or flips.
-      const Vector out = feeler::detail::out_of_ridge<double>(mesh, constraint.triangle, constraint.corner,
-                                                              constraint.is_behind ? -1 : 1);
-      if (sine < 0.2 || std::abs(row.normal.dot(out)) < 0.1) continue;
-    }
-    ++checked;
-    for (int k = 0; k < 6; ++k) {
-      const auto gap = [&](double h) {
-        const Pose<double> moved =
-            feeler::moved(pose, feeler::Twist<double>::from_vector(h * Vector6<double>::Unit(k)));
-        return row_of(constraint, tool, mesh, moved, moved.translation).gap;
-      };
-      BOOST_TEST(std::abs((gap(1e-6) - gap(-1e-6)) / 2e-6 - row.gradient()[k]) < 1e-7);
-    }
-  }
-  BOOST_TEST(checked > 2000);
 }
 
 BOOST_AUTO_TEST_SUITE_END()
