@@ -7,6 +7,7 @@
 
 #include "feeler/contact/contact_row.hpp"
 #include "feeler/core/scalar.hpp"
+#include "feeler/object/surface_walk.hpp"
 #include "feeler/object/triangle_mesh.hpp"
 #include "feeler/spatial/pose.hpp"
 #include "feeler/tool/convex_tool.hpp"
@@ -65,7 +66,7 @@ ContactRow<typename Tool::Scalar> row_of(const CandidateConstraint& constraint, 
       for (std::size_t i = 0; i < face.vertices.size(); ++i) {
         const Vector start = pose * tool.vertex(face.vertices[i]);
         const Vector edge = pose * tool.vertex(face.vertices[(i + 1) % face.vertices.size()]) - start;
-        row.room = std::min(row.room, edge.cross(Vector(corner - start)).dot(Vector(-row.normal)) / edge.norm());
+        row.room = std::min(row.room, area_inside<Scalar>(start, edge, corner, -row.normal) / edge.norm());
       }
       break;
     }

@@ -168,6 +168,7 @@ class ContactPatch {
   }
   /// Gap of a tool vertex above the triangle's plane, on the side of the tool [m].
   Scalar gap_above_face(const Vector& vertex) const noexcept { return maker_.on_surface(triangle_.height_of(vertex)); }
+
   /// Of many vertices, as of a round end, those that hold it up.
   [[gnu::flatten, gnu::noinline]]
   void add_outer_vertices_on_face(Rows& rows) noexcept {

@@ -39,7 +39,7 @@ class SurfaceAround {
   /// Sine by which a direction may leave a cone, or a plane another one.
   static constexpr Scalar tolerance = Scalar(1e-6);
 
-  /// @param world_from_tool  axes of the tool; kept by reference, here and below
+  /// @param world_from_tool  axes of the tool, kept by reference
   /// @param seam             a point so little beside a face counts as over it [m]
   SurfaceAround(const TriangleMesh<MeshScalar>& mesh, const Matrix3<Scalar>& world_from_tool, Scalar seam) noexcept
       : mesh_(mesh), world_from_tool_(world_from_tool), seam_(seam) {}
