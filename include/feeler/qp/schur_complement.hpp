@@ -14,11 +14,11 @@ namespace feeler::detail {
 
 /// The Schur complement S = A·H⁻¹·Aᵀ of some rows A in the system of equations of a held minimum, and S⁻¹ as the product of its sweeps.
 ///
-/// Row after row is swept out of those behind it and out of the right side, which then is the solution: there is no way back as after a triangular
-/// factor, and a row costs the chain one division, a product and a difference, in registers. Without pivoting, as S is positive definite. Every lane
-/// is computed alike, however many there are.
+/// Two rows at a time are swept out of those behind them and out of the right side, which then is the solution: there is no way back as after a
+/// triangular factor, and two rows cost the chain one division, a product and a difference, in registers. Without pivoting, as S is positive
+/// definite, and from its upper triangle, as it is symmetric. Every lane is computed alike, however many there are.
 /// Sources: J. Nocedal, S. J. Wright, "Numerical Optimization" (2006), section 16.2, the Schur-complement method; G. H. Golub, C. F. Van Loan,
-/// "Matrix Computations" (2013), section 3.2, for the Gauss transformations of one row.
+/// "Matrix Computations" (2013), section 3.2, for Gauss transformations, and 4.4, for pivots of two rows.
 /// @tparam Rows  `HeldRows`
 template <class Rows>
 class SchurComplement {
@@ -41,8 +41,9 @@ class SchurComplement {
       std::array<Group, 6> by;
 #pragma GCC unroll 6
       for (std::size_t j = 0; j < 6; ++j) by[j] = spread_lane<Scalar, lanes, int(k % width)>(y[j][k / width]);
+      sweeps_[k] = Row{};
 #pragma GCC unroll 8
-      for (std::size_t g = 0; g < groups; ++g) sweeps_[k][g] = dot_of_six<Group>(column(g), by);
+      for (std::size_t g = k / width; g < groups; ++g) sweeps_[k][g] = dot_of_six<Group>(column(g), by);
       return true;
     });
   }
@@ -62,24 +63,13 @@ class SchurComplement {
     Values whole{}, pivots{};
     for_every_row([&]<std::size_t k>(Number<k>) {
       if (!has_row(k)) return false;
-      whole[k / width] = with_lane_of<Scalar, lanes, int(k % width)>(whole[k / width], sweeps_[k][k / width]);
+      replace<k>(whole, sweeps_[k][k / width]);
       return true;
     });
-    for_every_row([&]<std::size_t k>(Number<k>) {
-      constexpr std::size_t at = k / width;
-      constexpr int lane = int(k % width);
+    for_every_pair([&]<std::size_t k>(Number<k>) {
       if (int(k) >= count_) return false;
-      Row& own = sweeps_[k];
-      const Group inverse = spread<Group>(Scalar(1)) / spread_lane<Scalar, lanes, lane>(own[at]);
-      pivots[at] = with_lane_of<Scalar, lanes, lane>(pivots[at], own[at]);
-#pragma GCC unroll 8
-      for (std::size_t g = 0; g < groups; ++g) own[g] = product(own[g], inverse);
-      own[at] = with_lane_of<Scalar, lanes, lane>(own[at], inverse);
-      for_every_row([&]<std::size_t i>(Number<i>) {
-        if constexpr (i > k) sweep_out<k>(sweeps_[i]);
-        return has_row(i + 1);
-      });
-      sweep_out<k>(v);
+      sweep<k>(whole, pivots);
+      take_out<k>(v);
       return true;
     });
     negate(v);
@@ -94,9 +84,9 @@ class SchurComplement {
   }
   /// S⁻¹·v, once S is swept.
   Values solve(Values v) const noexcept {
-    for_every_row([&]<std::size_t k>(Number<k>) {
+    for_every_pair([&]<std::size_t k>(Number<k>) {
       if (int(k) >= count_) return false;
-      sweep_out<k>(v);
+      take_out<k>(v);
       return true;
     });
     negate(v);
@@ -117,15 +107,73 @@ class SchurComplement {
   /// Whether row k is computed: in four lanes one that is not there costs less than a branch.
   bool has_row(std::size_t k) const noexcept { return lanes >= 4 || int(k) < count_; }
 
-  /// Takes row k out of another one, or of a right side.
+  /// The number of row k in each lane, and another one in its place.
   template <std::size_t k>
-  [[gnu::always_inline]] void sweep_out(auto& row) const noexcept {
-    constexpr std::size_t at = k / width;
-    constexpr int lane = int(k % width);
-    const Group factor = spread_lane<Scalar, lanes, lane>(row[at]);
-    row[at] = with_lane_of<Scalar, lanes, lane>(row[at], Group{});
+  static Group number_of(const auto& values) noexcept {
+    return spread_lane<Scalar, lanes, int(k % width)>(values[k / width]);
+  }
+  template <std::size_t k>
+  static void replace(auto& values, const Group& number) noexcept {
+    values[k / width] = with_lane_of<Scalar, lanes, int(k % width)>(values[k / width], number);
+  }
+
+  /// Sweeps rows k and k + 1, or the last row without another.
+  template <std::size_t k>
+  [[gnu::always_inline]] void sweep(Values& whole, Values& pivots) noexcept {
+    if constexpr (k + 1 < most) {
+      if (int(k) + 1 < count_) return sweep_pair<k>(whole, pivots);
+      sweeps_[k + 1] = Row{};
+    }
+    inverses_[k / 2] = spread<Group>(Scalar(1)) / number_of<k>(sweeps_[k]);
+    replace<k>(pivots, sweeps_[k][k / width]);
+    replace<k>(sweeps_[k], spread<Group>(Scalar(1)));
+  }
+  /// By the inverse of their block, ((c, −b), (−b, a)) over its determinant. What it makes of the rows is at hand when the division ends, so that
+  /// little else stands between one pair and the next.
+  template <std::size_t k>
+  [[gnu::always_inline]] void sweep_pair(Values& whole, Values& pivots) noexcept {
+    const Row first = sweeps_[k], second = sweeps_[k + 1];
+    const Group a = number_of<k>(first), b = number_of<k + 1>(first), c = number_of<k + 1>(second);
+    const Group determinant = product(a, c) - product(b, b);
+    inverses_[k / 2] = spread<Group>(Scalar(1)) / determinant;
+    replace<k>(pivots, a);
+    replace<k + 1>(pivots, determinant);
+    replace<k + 1>(whole, product(whole[(k + 1) / width], a));
 #pragma GCC unroll 8
-    for (std::size_t g = 0; g < groups; ++g) row[g] = row[g] - product(factor, sweeps_[k][g]);
+    for (std::size_t g = 0; g < groups; ++g) {
+      sweeps_[k][g] = product(c, first[g]) - product(b, second[g]);
+      sweeps_[k + 1][g] = product(a, second[g]) - product(b, first[g]);
+    }
+    replace<k>(sweeps_[k], c);
+    replace<k + 1>(sweeps_[k], -b);
+    replace<k>(sweeps_[k + 1], -b);
+    replace<k + 1>(sweeps_[k + 1], a);
+    for_every_row([&]<std::size_t i>(Number<i>) {
+      if constexpr (i > k + 1) take_out<k, i / width>(number_of<i>(first), number_of<i>(second), sweeps_[i]);
+      return has_row(i + 1);
+    });
+  }
+  /// Takes what was swept with row k out of a right side.
+  template <std::size_t k>
+  [[gnu::always_inline]] void take_out(Values& v) const noexcept {
+    if constexpr (k + 1 < most) {
+      take_out<k, 0>(number_of<k>(v), number_of<k + 1>(v), v);
+    } else {
+      const Group number = number_of<k>(v);
+      replace<k>(v, Group{});
+      v[0] = v[0] - product(inverses_[0], product(number, sweeps_[k][0]));
+    }
+  }
+  /// Takes rows k and k + 1, by what a row has of them, out of it; what it has of rows that are to be swept, in groups before its own, nobody needs.
+  template <std::size_t k, std::size_t own>
+  [[gnu::always_inline]] void take_out(const Group& first, const Group& second, auto& row) const noexcept {
+    replace<k>(row, Group{});
+    replace<k + 1>(row, Group{});
+#pragma GCC unroll 8
+    for (std::size_t g = 0; g < groups; ++g) {
+      if (g > (k + 1) / width && g < own) continue;
+      row[g] = row[g] - product(inverses_[k / 2], product(first, sweeps_[k][g]) + product(second, sweeps_[k + 1][g]));
+    }
   }
 
   static void negate(Values& v) noexcept {
@@ -136,6 +184,10 @@ class SchurComplement {
   [[gnu::always_inline]] static void for_every_row(const Do& act) noexcept {
     [&]<std::size_t... k>(std::index_sequence<k...>) { (void)(act(Number<k>{}) && ...); }(std::make_index_sequence<most>{});
   }
+  template <class Do>
+  [[gnu::always_inline]] static void for_every_pair(const Do& act) noexcept {
+    [&]<std::size_t... k>(std::index_sequence<k...>) { (void)(act(Number<2 * k>{}) && ...); }(std::make_index_sequence<(most + 1) / 2>{});
+  }
   std::array<Group, 6> column(std::size_t g) const noexcept {
     std::array<Group, 6> scaled;
 #pragma GCC unroll 6
@@ -143,8 +195,9 @@ class SchurComplement {
     return scaled;
   }
 
-  std::array<Row, 6> scaled_;      // D⁻¹L⁻¹a of each row, by columns
-  std::array<Row, most> sweeps_;   // rows of S, and of its sweeps
+  std::array<Row, 6> scaled_;                   // D⁻¹L⁻¹a of each row, by columns
+  std::array<Row, most> sweeps_;                // rows of S, and of its sweeps
+  std::array<Group, (most + 1) / 2> inverses_;  // of the determinants of pairs, by which their sweeps are to be multiplied
   int count_;
 };
 
