@@ -92,7 +92,7 @@ class HeldMinimum {
     const int count = rows.rows.size();
     if (count <= 1) return act(HeldRows<Scalar, 1, 1>(problem, bounds, rows));
     if (count <= 4) return act(HeldRows<Scalar, lanes, 4>(problem, bounds, rows));
-    return act(HeldRows<Scalar, lanes, 8>(problem, bounds, rows));
+    return act(HeldRows<Scalar, lanes, (lanes < 4 ? 6 : 8)>(problem, bounds, rows));
   }
 
   template <class Rows>

@@ -14,7 +14,7 @@
 namespace feeler::detail {
 
 /// Up to six rows of a problem, by columns in registers; what fills the last group is one of them once more, or row 0 where there is none.
-/// @tparam capacity_  1, 4 or 8: how many there may be, in whole groups
+/// @tparam capacity_  1, 4, 6 or 8: how many there may be, in whole groups
 template <RealScalar ScalarType, int lanes_, int capacity_>
 class HeldRows {
  public:
@@ -78,8 +78,9 @@ class HeldRows {
       Values terms;
 #pragma GCC unroll 8
       for (std::size_t g = 0; g < std::size_t(groups); ++g) terms[g] = product(columns_[j][g], values[g]);
-      if constexpr (groups == 8) terms = {terms[0] + terms[4], terms[1] + terms[5], terms[2] + terms[6], terms[3] + terms[7]};
-      if constexpr (groups >= 4) terms[0] = terms[0] + terms[2], terms[1] = terms[1] + terms[3];
+      if constexpr (groups == 6) terms[0] = terms[0] + terms[4], terms[1] = terms[1] + terms[5];
+      if constexpr (groups >= 3) terms[0] = terms[0] + terms[2];
+      if constexpr (groups >= 4) terms[1] = terms[1] + terms[3];
       if constexpr (groups >= 2) terms[0] = terms[0] + terms[1];
       sums[j] = sum_of_lanes<Scalar, lanes>(terms[0]);
     }

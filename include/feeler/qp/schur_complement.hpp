@@ -72,7 +72,6 @@ class SchurComplement {
       take_out<k>(v);
       return true;
     });
-    negate(v);
     auto is_independent = Group{} <= Group{};
 #pragma GCC unroll 8
     for (std::size_t g = 0; g < groups; ++g) {
@@ -89,7 +88,6 @@ class SchurComplement {
       take_out<k>(v);
       return true;
     });
-    negate(v);
     return v;
   }
 
@@ -104,8 +102,8 @@ class SchurComplement {
   /// Share of a row that has to be its own.
   static constexpr double independent = 1e-3;
 
-  /// Whether row k is computed: in four lanes one that is not there costs less than a branch.
-  bool has_row(std::size_t k) const noexcept { return lanes >= 4 || int(k) < count_; }
+  /// Whether row k is computed: in four lanes, and alone, one that is not there costs less than a branch.
+  bool has_row(std::size_t k) const noexcept { return lanes >= 4 || most == 1 || int(k) < count_; }
 
   /// The number of row k in each lane, and another one in its place.
   template <std::size_t k>
@@ -126,7 +124,7 @@ class SchurComplement {
     }
     inverses_[k / 2] = spread<Group>(Scalar(1)) / number_of<k>(sweeps_[k]);
     replace<k>(pivots, sweeps_[k][k / width]);
-    replace<k>(sweeps_[k], spread<Group>(Scalar(1)));
+    replace<k>(sweeps_[k], spread<Group>(Scalar(-1)));
   }
   /// By the inverse of their block, ((c, −b), (−b, a)) over its determinant. What it makes of the rows is at hand when the division ends, so that
   /// little else stands between one pair and the next.
@@ -144,10 +142,10 @@ class SchurComplement {
       sweeps_[k][g] = product(c, first[g]) - product(b, second[g]);
       sweeps_[k + 1][g] = product(a, second[g]) - product(b, first[g]);
     }
-    replace<k>(sweeps_[k], c);
-    replace<k + 1>(sweeps_[k], -b);
-    replace<k>(sweeps_[k + 1], -b);
-    replace<k + 1>(sweeps_[k + 1], a);
+    replace<k>(sweeps_[k], -c);
+    replace<k + 1>(sweeps_[k], b);
+    replace<k>(sweeps_[k + 1], b);
+    replace<k + 1>(sweeps_[k + 1], -a);
     for_every_row([&]<std::size_t i>(Number<i>) {
       if constexpr (i > k + 1) take_out<k, i / width>(number_of<i>(first), number_of<i>(second), sweeps_[i]);
       return has_row(i + 1);
@@ -159,9 +157,7 @@ class SchurComplement {
     if constexpr (k + 1 < most) {
       take_out<k, 0>(number_of<k>(v), number_of<k + 1>(v), v);
     } else {
-      const Group number = number_of<k>(v);
-      replace<k>(v, Group{});
-      v[0] = v[0] - product(inverses_[0], product(number, sweeps_[k][0]));
+      v[0] = product(inverses_[0], v[0]);
     }
   }
   /// Takes rows k and k + 1, by what a row has of them, out of it; what it has of rows that are to be swept, in groups before its own, nobody needs.
@@ -176,9 +172,6 @@ class SchurComplement {
     }
   }
 
-  static void negate(Values& v) noexcept {
-    for (Group& group : v) group = -group;
-  }
   /// Until one returns false.
   template <class Do>
   [[gnu::always_inline]] static void for_every_row(const Do& act) noexcept {
