@@ -2,20 +2,16 @@
 #include "feeler/device/force_dimension_device.hpp"
 
 #include <algorithm>
-#include <array>
-#include <atomic>
 #include <chrono>
 #include <cmath>
-#include <cstring>
 #include <memory>
 #include <thread>
 #include <utility>
 
+#include "direct_driver.hpp"
 #include "feeler/device/rotation_matrix.hpp"
 #include "feeler/device/shared_library.hpp"
-#include "feeler/device/wrench_limit.hpp"
 #include "maker_frame.hpp"
-#include "single_caller.hpp"
 
 namespace feeler {
 namespace {
@@ -121,80 +117,25 @@ DeviceSpecification preset_of(int system_type) {
   }
 }
 
-class ForceDimensionDriver final : public Device {
+class ForceDimensionDriver final : public DirectDriver {
  public:
-  ForceDimensionDriver(ForceDimensionSettings settings, Clock* clock)
-      : settings_(std::move(settings)), clock_(clock != nullptr ? *clock : monotonic_clock_) {}
+  ForceDimensionDriver(ForceDimensionSettings settings, Clock* clock) : DirectDriver(omega_6(), clock), settings_(std::move(settings)) {}
 
-  OpenResult open() override {
-    if (is_open_) return {};
-    if (std::string problem = library_.load(settings_.libraries); !problem.empty())
-      return {std::move(problem)};
+ private:
+  std::string connect() override {
+    if (std::string problem = library_.load(settings_.libraries); !problem.empty()) return problem;
     const int opened = library_.open();
-    if (opened < 0) return {refusal()};
+    if (opened < 0) return refusal();
     device_ = static_cast<char>(opened);
-    is_open_ = true;
-    is_lost_ = false;
-    complaint_ = {};
-    opened_at_ = clock_.now();
-    specification_ = preset_of(library_.system_type(device_));
-    if (!library_.has_wrist(device_)) specification_.is_sensed = {true, true, true, false, false, false};
-    if (!library_.has_active_wrist(device_)) specification_.lose_torque();
-    if (std::string problem = switch_on(); !problem.empty()) {
-      close();
-      return {std::move(problem)};
-    }
+    DeviceSpecification device = preset_of(library_.system_type(device_));
+    if (!library_.has_wrist(device_)) device.is_sensed = {true, true, true, false, false, false};
+    if (!library_.has_active_wrist(device_)) device.lose_torque();
+    specify(std::move(device));
     return {};
   }
 
-  DeviceStatus read(DeviceState& state) noexcept override {
-    if (!is_open_) return DeviceStatus::not_open;
-    const auto turn = library_calls_.turn();
-    if (turn && (is_lost_ || take_pose() < 0)) return DeviceStatus::fault;
-    state = state_;
-    if (turn) is_let_go_.store(false, std::memory_order_relaxed);  // else it is let go just now
-    return DeviceStatus::ok;
-  }
-
-  DeviceStatus write(const DeviceWrench& wrench) noexcept override {
-    if (!is_open_) return DeviceStatus::not_open;
-    const bool is_good = is_finite(wrench);
-    const auto turn = library_calls_.turn();
-    if (!turn) return is_good ? DeviceStatus::ok : DeviceStatus::not_finite;  // just now it is let go
-    const bool pushes = is_good && !is_lost_ && !is_let_go_.load(std::memory_order_relaxed);
-    // A lost device is told to let go as long as somebody asks it to push.
-    const int answer =
-        push(pushes ? limited(wrench, specification_.maximum_force, specification_.maximum_torque)
-                    : DeviceWrench{});
-    if (is_lost_) return DeviceStatus::fault;
-    if (answer < 0) return lose(library_.last_error());
-    if (answer == motors_saturated)
-      say("The motors give all they can and less than was asked for: lower the stiffness.");
-    return is_good ? DeviceStatus::ok : DeviceStatus::not_finite;
-  }
-
-  void let_go() noexcept override {
-    is_let_go_.store(true, std::memory_order_relaxed);  // before the turn: a write that comes after it knows
-    if (const auto turn = library_calls_.turn(); turn && is_open_) push({});
-  }
-
-  void close() noexcept override {
-    if (!is_open_) return;
-    push({});
-    library_.enable_force(0, device_);
-    library_.close(device_);
-    is_open_ = false;
-  }
-
-  const char* complaint() const noexcept override { return complaint_.data(); }
-
-  const DeviceSpecification& specification() const noexcept override { return specification_; }
-
- private:
   std::string refusal() const {
-    const char* const error = library_.last_error();
-    std::string sentence = "Force Dimension: no device can be opened (" +
-                           std::string(error != nullptr ? error : "no error given") + "): ";
+    std::string sentence = "Force Dimension: no device can be opened (" + error() + "): ";
     if (library_.device_count() <= 0) {
       return sentence +
              "check its power and USB cable, and that a udev rule lets you write to it: "
@@ -202,84 +143,76 @@ class ForceDimensionDriver final : public Device {
     }
     return sentence + "calibrate it as its manual says, and close the other program that uses it.";
   }
+  std::string error() const {
+    const char* const text = library_.last_error();
+    return text != nullptr ? text : "no error given";
+  }
 
-  /// Limits, gravity compensation, force on at zero, and the first pose.
-  std::string switch_on() {
+  /// Limits, gravity compensation, force on at zero, after the first pose.
+  std::string switch_on(DeviceState& state) override {
     for (int wait = 0;; ++wait) {
-      const int answer = take_pose();
-      if (answer < 0)
-        return "Force Dimension: the device gives no pose (" + std::string(complaint()) +
-               "): calibrate it as its manual says.";
-      if (answer != time_guard) break;
+      if (const char* const why = take_pose(state))
+        return "Force Dimension: the device gives no pose (" + std::string(why) + "): calibrate it as its manual says.";
+      if (is_renewed_) break;
       if (wait == 1000) return "Force Dimension: no pose came within a second: check the USB cable.";
       std::this_thread::sleep_for(std::chrono::milliseconds(1));
     }
-    if (library_.set_max_force(specification_.maximum_force, device_) < 0 ||
-        library_.set_gravity_compensation(1, device_) < 0 || push({}) < 0 ||
+    if (library_.set_max_force(specification().maximum_force, device_) < 0 ||
+        library_.set_gravity_compensation(1, device_) < 0 || !push({}).is_taken ||
         library_.enable_force(1, device_) < 0) {
-      const char* const error = library_.last_error();
-      return "Force Dimension: the device refuses to push (" +
-             std::string(error != nullptr ? error : "no error given") +
+      return "Force Dimension: the device refuses to push (" + error() +
              "): press its force button, and calibrate it as its manual says.";
     }
     return {};
   }
 
-  /// @return what the library answered; below 0 the device is lost
-  int take_pose() noexcept {
+  void switch_off() noexcept override {
+    library_.enable_force(0, device_);
+    library_.close(device_);
+  }
+
+  const char* take_pose(DeviceState& state) noexcept override {
     double position[3] = {0, 0, 0};
     double frame[3][3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
     const int answer = library_.get_pose(&position[0], &position[1], &position[2], frame, device_);
-    if (answer < 0) {
-      lose(library_.last_error());
-      return answer;
-    }
-    if (answer == time_guard) return answer;
+    if (answer < 0) return reason();
+    is_renewed_ = answer != time_guard;
+    if (!is_renewed_) return nullptr;
     double ours[3][3];
     maker_frame::to_ours(frame, ours);
     const bool is_position =
         std::isfinite(position[0]) && std::isfinite(position[1]) && std::isfinite(position[2]);
-    if (!is_position || !nearest_rotation(ours, state_.pose.orientation)) {
-      lose("The device reports a pose that is none: calibrate it as its manual says.");
-      return -1;
-    }
-    maker_frame::to_ours(position, state_.pose.position);
-    state_.buttons = library_.button_mask(device_);
-    state_.time = double(clock_.now() - opened_at_) * 1e-9;
-    return answer;
+    if (!is_position || !nearest_rotation(ours, state.pose.orientation))
+      return "The device reports a pose that is none: calibrate it as its manual says.";
+    maker_frame::to_ours(position, state.pose.position);
+    state.buttons = library_.button_mask(device_);
+    state.time = time();
+    return nullptr;
   }
 
-  int push(const DeviceWrench& wrench) noexcept {
+  Answer push(const DeviceWrench& wrench) noexcept override {
     double f[3];
     double t[3];
     maker_frame::to_maker(wrench.force, f);
     maker_frame::to_maker(wrench.torque, t);
-    if (!specification_.pushes_torque()) std::fill(t, t + 3, 0.0);
-    return library_.set_wrench(f[0], f[1], f[2], t[0], t[1], t[2], device_);
+    if (!specification().pushes_torque()) std::fill(t, t + 3, 0.0);
+    const int answer = library_.set_wrench(f[0], f[1], f[2], t[0], t[1], t[2], device_);
+    if (answer < 0) return {false, reason()};
+    if (answer == motors_saturated)
+      return {true, "The motors give all they can and less than was asked for: lower the stiffness."};
+    return {true};
   }
 
-  DeviceStatus lose(const char* text) noexcept {
-    is_lost_ = true;
-    say(text != nullptr ? text : "The device stopped answering: check its cable.");
-    return DeviceStatus::fault;
+  /// Why the library refused.
+  const char* reason() const noexcept {
+    const char* const text = library_.last_error();
+    return text != nullptr ? text : "The device stopped answering: check its cable.";
   }
-
-  /// Copied, because the library may write its next error in the same place.
-  void say(const char* text) noexcept { std::strncpy(complaint_.data(), text, complaint_.size() - 1); }
 
   ForceDimensionSettings settings_;
-  DeviceSpecification specification_ = omega_6();
-  MonotonicClock monotonic_clock_;
-  Clock& clock_;
   Library library_;
   char device_ = -1;
-  bool is_open_ = false;
-  bool is_lost_ = false;
-  SingleCaller library_calls_;  // by `read` and `write`, and by the watchdog
-  std::atomic<bool> is_let_go_ = false;
-  std::int64_t opened_at_ = 0;
-  DeviceState state_;
-  std::array<char, 200> complaint_ = {};
+  bool is_renewed_ = false;  // the pose, since it was taken before
 };
 
 }  // namespace

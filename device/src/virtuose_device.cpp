@@ -2,15 +2,13 @@
 #include "feeler/device/virtuose_device.hpp"
 
 #include <algorithm>
-#include <atomic>
 #include <cmath>
 #include <memory>
 #include <utility>
 
+#include "direct_driver.hpp"
 #include "feeler/device/shared_library.hpp"
-#include "feeler/device/wrench_limit.hpp"
 #include "maker_frame.hpp"
-#include "single_caller.hpp"
 
 namespace feeler {
 namespace {
@@ -80,88 +78,28 @@ struct Library {
   }
 };
 
-class VirtuoseDriver final : public Device {
+class VirtuoseDriver final : public DirectDriver {
  public:
-  VirtuoseDriver(VirtuoseSettings settings, Clock* clock)
-      : settings_(std::move(settings)), clock_(clock != nullptr ? *clock : monotonic_clock_) {}
+  VirtuoseDriver(VirtuoseSettings settings, Clock* clock) : DirectDriver(virtuose_6d(), clock), settings_(std::move(settings)) {}
 
-  OpenResult open() override {
-    if (is_open_) return {};
-    if (std::string problem = library_.load(settings_.libraries); !problem.empty())
-      return {std::move(problem)};
+ private:
+  std::string connect() override {
+    if (std::string problem = library_.load(settings_.libraries); !problem.empty()) return problem;
     context_ = library_.open(settings_.address.c_str());
     if (context_ == nullptr) {
-      return {"Virtuose: no controller answers at " + settings_.address + " (" + error() +
-              "): switch it on, check the network, and start the Virtuose daemon."};
-    }
-    is_open_ = true;
-    is_lost_ = false;
-    is_hindered_ = false;
-    complaint_ = "";
-    opened_at_ = clock_.now();
-    if (std::string problem = switch_on(); !problem.empty()) {
-      close();
-      return {std::move(problem)};
+      return "Virtuose: no controller answers at " + settings_.address + " (" + error() +
+             "): switch it on, check the network, and start the Virtuose daemon.";
     }
     return {};
   }
 
-  DeviceStatus read(DeviceState& state) noexcept override {
-    if (!is_open_) return DeviceStatus::not_open;
-    const auto turn = library_calls_.turn();
-    if (turn && (is_lost_ || !take_pose())) return DeviceStatus::fault;
-    state = state_;
-    if (!turn) return DeviceStatus::ok;  // just now it is let go: the pose keeps its time
-    is_let_go_.store(false, std::memory_order_relaxed);
-    const char* const hindrance = what_hinders();
-    if (is_lost_) return DeviceStatus::fault;
-    is_hindered_ = hindrance != nullptr;
-    if (!is_hindered_) return DeviceStatus::ok;
-    complaint_ = hindrance;
-    return DeviceStatus::warning;
-  }
-
-  DeviceStatus write(const DeviceWrench& wrench) noexcept override {
-    if (!is_open_) return DeviceStatus::not_open;
-    const bool is_good = is_finite(wrench);
-    const auto turn = library_calls_.turn();
-    if (!turn) return is_good ? DeviceStatus::ok : DeviceStatus::not_finite;  // just now it is let go
-    const bool pushes = is_good && !is_lost_ && !is_hindered_ && !is_let_go_.load(std::memory_order_relaxed);
-    const bool is_done =
-        push(pushes ? limited(wrench, specification_.maximum_force, specification_.maximum_torque)
-                    : DeviceWrench{});
-    if (is_lost_) return DeviceStatus::fault;
-    if (!is_done)
-      return lose("The controller does not take the force: check its network cable and its emergency stop.");
-    return is_good ? DeviceStatus::ok : DeviceStatus::not_finite;
-  }
-
-  void let_go() noexcept override {
-    is_let_go_.store(true, std::memory_order_relaxed);  // before the turn: a write that comes after it knows
-    if (const auto turn = library_calls_.turn(); turn && is_open_) push({});
-  }
-
-  void close() noexcept override {
-    if (!is_open_) return;
-    push({});
-    library_.set_power_on(context_, 0);
-    library_.close(context_);
-    context_ = nullptr;
-    is_open_ = false;
-  }
-
-  const char* complaint() const noexcept override { return complaint_; }
-
-  const DeviceSpecification& specification() const noexcept override { return specification_; }
-
- private:
   std::string error() const {
     const char* const message = library_.error_message(library_.error_code(context_));
     return message != nullptr ? message : "no error given";
   }
 
   /// The modes in the order in which the controller wants them, power last; it ends at the first refusal.
-  std::string switch_on() {
+  std::string switch_on(DeviceState& state) override {
     float identity[7] = {0, 0, 0, 0, 0, 0, 1};
     const char* refused = nullptr;
     const auto step = [&refused](const char* what, const auto& call) {
@@ -176,68 +114,70 @@ class VirtuoseDriver final : public Device {
     step("the observation frame", [&] { return library_.set_observation_frame(context_, identity); });
     step("impedance mode", [&] { return library_.set_command_type(context_, impedance); });
     step("the saturation", [&] {
-      return library_.saturate_torque(context_, static_cast<float>(specification_.maximum_force),
-                                      static_cast<float>(specification_.maximum_torque));
+      return library_.saturate_torque(context_, static_cast<float>(specification().maximum_force),
+                                      static_cast<float>(specification().maximum_torque));
     });
-    step("a force of zero", [&] { return push({}) ? 0 : 1; });
+    step("a force of zero", [&] { return push({}).is_taken ? 0 : 1; });
     step("power", [&] { return library_.set_power_on(context_, 1); });
     if (refused != nullptr) {
       return "Virtuose: the controller refuses " + std::string(refused) + " (" + error() +
              "): release its emergency stop and start it again.";
     }
-    if (!take_pose()) {
+    if (take_pose(state) != nullptr) {
       return "Virtuose: the controller gives no pose (" + error() +
              "): calibrate the device as its manual says.";
     }
     return {};
   }
 
-  /// What keeps the device from pushing, or nullptr.
-  const char* what_hinders() noexcept {
+  void switch_off() noexcept override {
+    library_.set_power_on(context_, 0);
+    library_.close(context_);
+    context_ = nullptr;
+  }
+
+  const char* take_pose(DeviceState& state) noexcept override {
+    constexpr const char* is_silent = "The controller stopped answering: check its network cable.";
+    float pose[7] = {0, 0, 0, 0, 0, 0, 1};
+    if (library_.get_position(context_, pose) != 0 || !look_for_hindrances()) return is_silent;
+    const double q[4] = {double(pose[6]), double(pose[3]), double(pose[4]), double(pose[5])};
+    const double length = std::hypot(std::hypot(q[0], q[1]), std::hypot(q[2], q[3]));
+    const bool is_position = std::isfinite(pose[0]) && std::isfinite(pose[1]) && std::isfinite(pose[2]);
+    if (!is_position || !(std::abs(length - 1) < 0.1))
+      return "The controller reports a pose that is none: calibrate the device as its manual says.";
+    const double axis[3] = {q[1] / length, q[2] / length, q[3] / length};
+    double vector[3];
+    maker_frame::to_ours(pose, state.pose.position);
+    maker_frame::to_ours(axis, vector);
+    state.pose.orientation[0] = q[0] / length;
+    std::copy(vector, vector + 3, state.pose.orientation + 1);
+    state.buttons = 0;
+    for (int button = 0; button < buttons; ++button) {
+      int is_pressed = 0;
+      if (library_.get_button(context_, button, &is_pressed) == 0 && is_pressed != 0)
+        state.buttons |= 1u << button;
+    }
+    state.time = time();
+    return nullptr;
+  }
+
+  /// Whether the controller says what keeps the device from pushing.
+  bool look_for_hindrances() noexcept {
     int is_stopped = 0;
     int is_powered = 0;
     int is_held = 0;
     if (library_.get_emergency_stop(context_, &is_stopped) != 0 ||
-        library_.get_power_on(context_, &is_powered) != 0 || library_.get_dead_man(context_, &is_held) != 0) {
-      lose("The controller stopped answering: check its network cable.");
-      return nullptr;
-    }
-    if (is_stopped != 0) return "The emergency stop of the device is pressed: release it.";
-    if (is_powered == 0) return "The power of the motors is off: switch it on at the controller.";
-    if (is_held == 0) return "The dead man's switch is released: hold the handle.";
-    return nullptr;
-  }
-
-  bool take_pose() noexcept {
-    float pose[7] = {0, 0, 0, 0, 0, 0, 1};
-    if (library_.get_position(context_, pose) != 0) {
-      lose("The controller stopped answering: check its network cable.");
+        library_.get_power_on(context_, &is_powered) != 0 || library_.get_dead_man(context_, &is_held) != 0)
       return false;
-    }
-    const double q[4] = {double(pose[6]), double(pose[3]), double(pose[4]), double(pose[5])};
-    const double length = std::hypot(std::hypot(q[0], q[1]), std::hypot(q[2], q[3]));
-    const bool is_position = std::isfinite(pose[0]) && std::isfinite(pose[1]) && std::isfinite(pose[2]);
-    if (!is_position || !(std::abs(length - 1) < 0.1)) {
-      lose("The controller reports a pose that is none: calibrate the device as its manual says.");
-      return false;
-    }
-    const double axis[3] = {q[1] / length, q[2] / length, q[3] / length};
-    double vector[3];
-    maker_frame::to_ours(pose, state_.pose.position);
-    maker_frame::to_ours(axis, vector);
-    state_.pose.orientation[0] = q[0] / length;
-    std::copy(vector, vector + 3, state_.pose.orientation + 1);
-    state_.buttons = 0;
-    for (int button = 0; button < buttons; ++button) {
-      int is_pressed = 0;
-      if (library_.get_button(context_, button, &is_pressed) == 0 && is_pressed != 0)
-        state_.buttons |= 1u << button;
-    }
-    state_.time = double(clock_.now() - opened_at_) * 1e-9;
+    hindrance_ = is_stopped != 0   ? "The emergency stop of the device is pressed: release it."
+                 : is_powered == 0 ? "The power of the motors is off: switch it on at the controller."
+                 : is_held == 0    ? "The dead man's switch is released: hold the handle."
+                                   : nullptr;
     return true;
   }
+  const char* hindrance() const noexcept override { return hindrance_; }
 
-  bool push(const DeviceWrench& wrench) noexcept {
+  Answer push(const DeviceWrench& wrench) noexcept override {
     float both[6];
     float force[3];
     float torque[3];
@@ -245,29 +185,14 @@ class VirtuoseDriver final : public Device {
     maker_frame::to_maker(wrench.torque, torque);
     std::copy(force, force + 3, both);
     std::copy(torque, torque + 3, both + 3);
-    return library_.set_force(context_, both) == 0;
-  }
-
-  DeviceStatus lose(const char* text) noexcept {
-    is_lost_ = true;
-    complaint_ = text;
-    return DeviceStatus::fault;
+    if (library_.set_force(context_, both) == 0) return {true};
+    return {false, "The controller does not take the force: check its network cable and its emergency stop."};
   }
 
   VirtuoseSettings settings_;
-  DeviceSpecification specification_ = virtuose_6d();
-  MonotonicClock monotonic_clock_;
-  Clock& clock_;
   Library library_;
   Context context_ = nullptr;
-  bool is_open_ = false;
-  bool is_lost_ = false;
-  SingleCaller library_calls_;  // by `read` and `write`, and by the watchdog
-  std::atomic<bool> is_let_go_ = false;
-  bool is_hindered_ = false;  // by its emergency stop, its power or its dead man's switch
-  std::int64_t opened_at_ = 0;
-  DeviceState state_;
-  const char* complaint_ = "";
+  const char* hindrance_ = nullptr;  // its emergency stop, its power or its dead man's switch
 };
 
 }  // namespace
