@@ -140,7 +140,7 @@ class DualTableau {
     for (Scalar multiplier(0); !table_.is_full();) {
       ++steps_;
       const bool is_free = !active_.rows.full();
-      if (is_free && !(weight_[row] > rough() * whole)) measure_again(entering, *column);
+      if (is_free && !(weight_[row] > rough() * whole)) measure_again(entering, whole, *column);
       const bool has_step = is_free && weight_[row] > independent() * whole;
       const Scalar inverse = inverse_weight(entering);
       Scalar step = has_step ? product(violation_[row], inverse) : std::numeric_limits<Scalar>::infinity();
@@ -170,21 +170,26 @@ class DualTableau {
 
   /// Column and weight of a row that all but depends on the active ones, by what is left of it beside them.
   ///
-  /// The table tells how far it is their sum; taken from the row itself twice (W. Kahan, in B. Parlett, "The Symmetric Eigenvalue Problem",
-  /// section 6-9) that leaves as many digits of the rest as a scalar has.
+  /// The table tells how far it is their sum. Where that leaves more of it than rounding would, it is taken from the row itself twice (W. Kahan, in
+  /// B. Parlett, "The Symmetric Eigenvalue Problem", section 6-9), so that the rest has as many digits as a scalar.
+  /// @param whole  weight of the row with nothing active
   [[gnu::noinline]]
-  void measure_again(int entering, Values& column) noexcept {
+  void measure_again(int entering, const Scalar& whole, Values& column) noexcept {
     const int count = active_.rows.size();
-    Six<Scalar> rest = rows_.row(entering), share{}, along{};
+    Six<Scalar> rest = rows_.row(entering), share{};
     for (int i = 0; i < count; ++i) share[index(i)] = share_of(i, column);
     take(share, rest);
-    for (int i = 0; i < count; ++i) along[index(i)] = dot(rows_.scaled(rows_.row(active_.rows[i])), rest);
-    const Six<Scalar> change = change_for(along);
-    take(change, rest);
+    if (dot(rows_.scaled(rest), rest) > product(independent(), whole)) {
+      Six<Scalar> along{};
+      for (int i = 0; i < count; ++i) along[index(i)] = dot(rows_.scaled(rows_.row(active_.rows[i])), rest);
+      const Six<Scalar> change = change_for(along);
+      take(change, rest);
+      for (int i = 0; i < count; ++i) share[index(i)] += change[index(i)];
+    }
     const Six<Scalar> scaled = rows_.scaled(rest);
     const auto by = spread_six<Group>(scaled);
     for (int k = 0; k < count_; k += lanes) column.set(k, dot_of_six<Group>(rows_.at(k), by));
-    for (int i = 0; i < count; ++i) column[index(active_.rows[i])] = (share[index(i)] + change[index(i)]) / units_[index(i)];
+    for (int i = 0; i < count; ++i) column[index(active_.rows[i])] = share[index(i)] / units_[index(i)];
     column[index(entering)] = dot(scaled, rest);
     set_weight(entering, column[index(entering)]);
     table_.replace(entering);
