@@ -21,8 +21,8 @@ namespace feeler::detail {
 /// min ½ xᵀHx + gᵀx subject to aᵢ·x = bᵢ for up to six rows, with their multipliers.
 ///
 /// The multipliers solve A·H⁻¹·Aᵀ·λ = b + A·H⁻¹·g, with A the rows: H needs no inverse, and the rows no operators. Where the terms of x all but
-/// cancel, as those of a tool that is pinned, it lies beside its rows by more than ten digits of itself, and one step of iterative refinement
-/// follows. The same bits with every number of lanes.
+/// cancel, as those of a tool that is pinned, it lies beside its rows by more than ten digits of itself, and a step or two of iterative refinement
+/// follow. The same bits with every number of lanes.
 template <RealScalar Scalar, int lanes>
 class HeldMinimum {
  public:
@@ -47,7 +47,9 @@ class HeldMinimum {
       multipliers = rows.only_rows(multipliers);
       if (!rows.are_not_negative(multipliers)) return false;
       place(rows, multipliers, hessian, gradient);
-      if (beside_ > rough() * largest_of(x_)) shift(rows, rows.only_rows(schur.solve(rows.values(lacking_))), hessian);
+      constexpr int most_refinements = 2;
+      for (int i = 0; i < most_refinements && beside_ > rough() * largest_of(x_); ++i)
+        shift(rows, rows.only_rows(schur.solve(rows.values(lacking_))), hessian);
       return true;
     });
   }
