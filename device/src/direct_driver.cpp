@@ -1,3 +1,4 @@
+// Keeps one thread at a time in a maker's library, and knows when its device may push.
 #include "direct_driver.hpp"
 
 #include <cstring>

@@ -41,7 +41,7 @@ class SchurComplement {
       std::array<Group, 6> by;
 #pragma GCC unroll 6
       for (std::size_t j = 0; j < 6; ++j) by[j] = spread_lane<Scalar, lanes, int(k % width)>(y[j][k / width]);
-      sweeps_[k] = Row{};
+      sweeps_[k] = Values{};
 #pragma GCC unroll 8
       for (std::size_t g = k / width; g < groups; ++g) sweeps_[k][g] = dot_of_six<Group>(column(g), by);
       return true;
@@ -66,7 +66,7 @@ class SchurComplement {
       replace<k>(whole, sweeps_[k][k / width]);
       return true;
     });
-    for_every_pair([&]<std::size_t k>(Number<k>) {
+    for_every_row<2>([&]<std::size_t k>(Number<k>) {
       if (int(k) >= count_) return false;
       sweep<k>(whole, pivots);
       take_out<k>(v);
@@ -83,7 +83,7 @@ class SchurComplement {
   }
   /// S⁻¹·v, once S is swept.
   Values solve(Values v) const noexcept {
-    for_every_pair([&]<std::size_t k>(Number<k>) {
+    for_every_row<2>([&]<std::size_t k>(Number<k>) {
       if (int(k) >= count_) return false;
       take_out<k>(v);
       return true;
@@ -96,8 +96,7 @@ class SchurComplement {
   using Number = std::integral_constant<std::size_t, i>;
   using Group = typename Rows::Group;
   static constexpr int lanes = Rows::lanes;
-  static constexpr std::size_t width = lanes, most = std::min(Rows::capacity, 6), groups = (most + width - 1) / width;
-  using Row = std::array<Group, groups>;
+  static constexpr std::size_t width = lanes, most = std::min(Rows::capacity, 6), groups = Rows::groups;
 
   /// Share of a row that has to be its own.
   static constexpr double independent = 1e-3;
@@ -107,11 +106,11 @@ class SchurComplement {
 
   /// The number of row k in each lane, and another one in its place.
   template <std::size_t k>
-  static Group number_of(const auto& values) noexcept {
+  static Group number_of(const Values& values) noexcept {
     return spread_lane<Scalar, lanes, int(k % width)>(values[k / width]);
   }
   template <std::size_t k>
-  static void replace(auto& values, const Group& number) noexcept {
+  static void replace(Values& values, const Group& number) noexcept {
     values[k / width] = with_lane_of<Scalar, lanes, int(k % width)>(values[k / width], number);
   }
 
@@ -120,7 +119,7 @@ class SchurComplement {
   [[gnu::always_inline]] void sweep(Values& whole, Values& pivots) noexcept {
     if constexpr (k + 1 < most) {
       if (int(k) + 1 < count_) return sweep_pair<k>(whole, pivots);
-      sweeps_[k + 1] = Row{};
+      sweeps_[k + 1] = Values{};
     }
     inverses_[k / 2] = spread<Group>(Scalar(1)) / number_of<k>(sweeps_[k]);
     replace<k>(pivots, sweeps_[k][k / width]);
@@ -130,7 +129,7 @@ class SchurComplement {
   /// little else stands between one pair and the next.
   template <std::size_t k>
   [[gnu::always_inline]] void sweep_pair(Values& whole, Values& pivots) noexcept {
-    const Row first = sweeps_[k], second = sweeps_[k + 1];
+    const Values first = sweeps_[k], second = sweeps_[k + 1];
     const Group a = number_of<k>(first), b = number_of<k + 1>(first), c = number_of<k + 1>(second);
     const Group determinant = product(a, c) - product(b, b);
     inverses_[k / 2] = spread<Group>(Scalar(1)) / determinant;
@@ -162,7 +161,7 @@ class SchurComplement {
   }
   /// Takes rows k and k + 1, by what a row has of them, out of it; what it has of rows that are to be swept, in groups before its own, nobody needs.
   template <std::size_t k, std::size_t own>
-  [[gnu::always_inline]] void take_out(const Group& first, const Group& second, auto& row) const noexcept {
+  [[gnu::always_inline]] void take_out(const Group& first, const Group& second, Values& row) const noexcept {
     replace<k>(row, Group{});
     replace<k + 1>(row, Group{});
 #pragma GCC unroll 8
@@ -172,14 +171,11 @@ class SchurComplement {
     }
   }
 
-  /// Until one returns false.
-  template <class Do>
+  /// Or for the first of every so many; until one returns false.
+  template <std::size_t step = 1, class Do>
   [[gnu::always_inline]] static void for_every_row(const Do& act) noexcept {
-    [&]<std::size_t... k>(std::index_sequence<k...>) { (void)(act(Number<k>{}) && ...); }(std::make_index_sequence<most>{});
-  }
-  template <class Do>
-  [[gnu::always_inline]] static void for_every_pair(const Do& act) noexcept {
-    [&]<std::size_t... k>(std::index_sequence<k...>) { (void)(act(Number<2 * k>{}) && ...); }(std::make_index_sequence<(most + 1) / 2>{});
+    constexpr std::size_t count = (most + step - 1) / step;
+    [&]<std::size_t... k>(std::index_sequence<k...>) { (void)(act(Number<step * k>{}) && ...); }(std::make_index_sequence<count>{});
   }
   std::array<Group, 6> column(std::size_t g) const noexcept {
     std::array<Group, 6> scaled;
@@ -188,8 +184,8 @@ class SchurComplement {
     return scaled;
   }
 
-  std::array<Row, 6> scaled_;                   // D⁻¹L⁻¹a of each row, by columns
-  std::array<Row, most> sweeps_;                // rows of S, and of its sweeps
+  std::array<Values, 6> scaled_;                // D⁻¹L⁻¹a of each row, by columns
+  std::array<Values, most> sweeps_;             // rows of S, and of its sweeps
   std::array<Group, (most + 1) / 2> inverses_;  // of the determinants of pairs, by which their sweeps are to be multiplied
   int count_;
 };
