@@ -38,10 +38,13 @@ constexpr bool has_lanes = std::is_same_v<Scalar, float> || std::is_same_v<Scala
 template <class Scalar>
 constexpr int lanes_of = has_lanes<Scalar> ? std::clamp(vector_bytes / int(sizeof(Scalar)), 1, 8) : 1;
 
+/// Of a group: of `float` in the widest registers.
+constexpr int most_lanes = 16;
+
 template <class Scalar, int lanes>
 struct LaneGroup {
 #if defined(__GNUC__)
-  static_assert(lanes == 2 || lanes == 4 || lanes == 8);
+  static_assert(lanes == 2 || lanes == 4 || lanes == 8 || lanes == most_lanes);
   using type [[gnu::vector_size(sizeof(Scalar) * std::size_t(lanes))]] = Scalar;
 #endif
 };
@@ -127,35 +130,33 @@ inline std::array<Number, sizeof(Group) / sizeof(Number)> in_lanes(const Group& 
 }
 
 /// In one lane −1, else 0; nothing but 0 where there is no such lane.
-/// @param lane  from −8 to 8
+/// @param lane  from −16 to 16
 ///
 /// A window on a row of numbers: of a comparison with the lane's number g++ 12 makes branches where registers have no comparison of wide integers.
 template <class Scalar, int lanes>
 inline Lanes<LaneBits<Scalar>, lanes> only_lane(int lane) noexcept {
-  constexpr int most = 8;
   static constexpr auto marks = [] {
-    std::array<LaneBits<Scalar>, std::size_t(3 * most)> zeros_and_one{};
-    zeros_and_one[most] = -1;
+    std::array<LaneBits<Scalar>, std::size_t(3 * most_lanes)> zeros_and_one{};
+    zeros_and_one[most_lanes] = -1;
     return zeros_and_one;
   }();
   Lanes<LaneBits<Scalar>, lanes> group;
-  std::memcpy(&group, &marks[std::size_t(most - lane)], sizeof(group));
+  std::memcpy(&group, &marks[std::size_t(most_lanes - lane)], sizeof(group));
   return group;
 }
 
 /// In the first lanes −1, in the others 0.
-/// @param count  of the first, from 0 to 8
+/// @param count  of the first, from 0 to 16
 template <class Scalar, int lanes>
 inline Lanes<LaneBits<Scalar>, lanes> first_lanes(int count) noexcept {
   if constexpr (lanes == 1) return LaneBits<Scalar>(-(count > 0));
-  constexpr int most = 8;
   static constexpr auto marks = [] {
-    std::array<LaneBits<Scalar>, std::size_t(2 * most)> ones_and_zeros{};
-    for (int i = 0; i < most; ++i) ones_and_zeros[std::size_t(i)] = -1;
+    std::array<LaneBits<Scalar>, std::size_t(2 * most_lanes)> ones_and_zeros{};
+    for (int i = 0; i < most_lanes; ++i) ones_and_zeros[std::size_t(i)] = -1;
     return ones_and_zeros;
   }();
   Lanes<LaneBits<Scalar>, lanes> group;
-  std::memcpy(&group, &marks[std::size_t(most - count)], sizeof(group));
+  std::memcpy(&group, &marks[std::size_t(most_lanes - count)], sizeof(group));
   return group;
 }
 
@@ -258,6 +259,7 @@ inline Scalar largest_lane(const Lanes<Scalar, lanes>& group) noexcept {
       largest = greater(largest, Lanes<Scalar, lanes>{largest[i ^ half]...});
     };
     constexpr std::make_integer_sequence<int, lanes> all{};
+    if constexpr (lanes > 8) fold(std::integral_constant<int, 8>{}, all);
     if constexpr (lanes > 4) fold(std::integral_constant<int, 4>{}, all);
     if constexpr (lanes > 2) fold(std::integral_constant<int, 2>{}, all);
     fold(std::integral_constant<int, 1>{}, all);

@@ -241,7 +241,7 @@ class OperatorMethod {
 
   /// Makes row p satisfied with equality, dropping rows whose multiplier would turn negative.
   /// @param p  afterwards the next row to add, or −1
-  Entry enter(const Problem& problem, int limit, Solution& solution, int& p) noexcept {
+  [[gnu::always_inline]] inline Entry enter(const Problem& problem, int limit, Solution& solution, int& p) noexcept {
     const int row = p;
     const Six a = row_of(problem, row);
     const Scalar excused = rounding_of_dot(a, x_);
@@ -278,7 +278,7 @@ class OperatorMethod {
         clamp_multipliers();
         p = scan_.add(problem, operators_.image().step, step, slope, accepted_);
         scan_.set_active(row);
-        if (p == row) p = scan_.select(problem, accepted_);  // rounding says that it is still violated
+        if (p == row) p = -1;  // all others are violated by less than rounding leaves of this one, if at all
         activate(row, a, multiplier, slope);
         if (is_careful_) refine(problem);
         return Entry::done;

@@ -2,7 +2,6 @@
 // move.
 #pragma once
 
-#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <limits>
@@ -129,7 +128,7 @@ class RowScan {
  private:
   using Coarse = std::conditional_t<std::is_same_v<Scalar, double>, float, Scalar>;
   static constexpr bool is_rounded = !std::is_same_v<Coarse, Scalar>;
-  static constexpr int coarse_lanes = is_rounded && lanes > 1 ? std::min(2 * lanes, 8) : lanes;
+  static constexpr int coarse_lanes = is_rounded && lanes > 1 ? 2 * lanes : lanes;
   using Group = Lanes<Scalar, lanes>;
   using SixGroups = std::array<Group, 6>;
   using CoarseGroup = Lanes<Coarse, coarse_lanes>;
