@@ -36,7 +36,7 @@ template <>
 constexpr bool decides_all<feeler::InteriorPoint<double>> = false;
 
 template <class Solver>
-Verdict check(const feeler::qp_families::Family& family, const feeler::qp_families::Problem& problem,
+void check(const feeler::qp_families::Family& family, const feeler::qp_families::Problem& problem,
            Judge& judge) {
   Solver solver;
   solver.tolerance /= family.metres_per_unit;
@@ -44,10 +44,9 @@ Verdict check(const feeler::qp_families::Family& family, const feeler::qp_famili
   const feeler::QpStatus status = solver.solve(problem, solution);
   const Verdict verdict = judge.judge(status, solution, Solver().tolerance);
   BOOST_TEST_CONTEXT(family.name << ", status " << int(status) << ", off by " << judge.distance() << " m") {
-    if (decides_all<Solver>) BOOST_TEST((verdict == Verdict::right));
-    BOOST_TEST((verdict != Verdict::falsely_infeasible));
+    const bool may_be_undecided = !decides_all<Solver>;
+    BOOST_TEST((verdict == Verdict::right || (may_be_undecided && verdict == Verdict::undecided)));
   }
-  return verdict;
 }
 
 }  // namespace
@@ -56,7 +55,6 @@ BOOST_AUTO_TEST_CASE(fresh_problems_of_every_family_are_solved_right_by_every_so
   const unsigned seed = seed_of_this_run();
   BOOST_TEST_MESSAGE("by " << feeler::qp_families::exact_solver_name() << ", seed " << seed);
   std::mt19937 bits(seed);
-  int imprecise = 0;
   for (const auto& family : feeler::qp_families::all_families()) {
     std::vector<feeler::qp_families::Problem> problems;
     while (problems.size() < 10) family.append(bits, problems);
@@ -64,12 +62,10 @@ BOOST_AUTO_TEST_CASE(fresh_problems_of_every_family_are_solved_right_by_every_so
       Judge judge(problem, family.metres_per_unit);
       check<feeler::DualActiveSet<double>>(family, problem, judge);
       check<feeler::TextbookActiveSet<double>>(family, problem, judge);
-      if (check<feeler::InteriorPoint<double>>(family, problem, judge) == Verdict::wrong) ++imprecise;
-      if (check<feeler::ProjectedGaussSeidel<double>>(family, problem, judge) == Verdict::wrong) ++imprecise;
+      check<feeler::InteriorPoint<double>>(family, problem, judge);
+      check<feeler::ProjectedGaussSeidel<double>>(family, problem, judge);
     }
   }
-  // A row met to a nanometre can leave a rotation open; the study finds about one such answer in seven thousand.
-  BOOST_TEST(imprecise <= 2);
 }
 
 BOOST_AUTO_TEST_CASE(the_judge_tells_wrong_answers_from_right_ones) {
@@ -88,6 +84,29 @@ BOOST_AUTO_TEST_CASE(the_judge_tells_wrong_answers_from_right_ones) {
   BOOST_TEST((closed.judge(feeler::QpStatus::optimal, solution, 2e-13) == Verdict::wrong));
   solution.step[0] += 1e-9;
   BOOST_TEST((slot.judge(status, solution, 2e-13) == Verdict::wrong));
+}
+
+// Two rows at an angle of 1e-5: one that gives way by 10 fm moves the optimum by a nanometre.
+BOOST_AUTO_TEST_CASE(the_judge_accepts_the_optimum_of_a_problem_that_is_as_near_as_the_tolerance) {
+  feeler::QpProblem<double> problem;
+  feeler::Vector6<double> flat = feeler::Vector6<double>::Unit(1), tilted = flat;
+  tilted[0] = 1e-5;
+  problem.gradient = flat + tilted;  // both rows push, the optimum is 0
+  problem.add_row(flat, 0.0);
+  problem.add_row(tilted, 0.0);
+  Judge judge(problem, 1.0);
+  const auto verdict_on = [&](double along, double across) {
+    feeler::QpSolution<double> solution;
+    solution.step << along, across, 0, 0, 0, 0;
+    return judge.judge(feeler::QpStatus::optimal, solution, 2e-13);
+  };
+  BOOST_TEST((verdict_on(0, 0) == Verdict::right));
+  BOOST_TEST((verdict_on(-1e-9, 0) == Verdict::right));  // 10 fm are missing
+  BOOST_TEST((verdict_on(1e-9, 0) == Verdict::right));   // 10 fm more than asked
+  BOOST_TEST(judge.distance() == 1e-9, boost::test_tools::tolerance(1e-12));
+  BOOST_TEST((verdict_on(-1e-6, 0) == Verdict::wrong));  // 10 pm are missing
+  BOOST_TEST((verdict_on(1e-6, 0) == Verdict::wrong));   // 10 pm more than asked
+  BOOST_TEST((verdict_on(0, 1e-9) == Verdict::wrong));   // off both rows
 }
 
 BOOST_AUTO_TEST_SUITE_END()
