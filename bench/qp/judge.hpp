@@ -31,8 +31,8 @@ class Judge {
   Judge(const QpProblem<double>& problem, double metres_per_unit)
       : problem_(problem), unit_(metres_per_unit), exact_(exact_optimum(problem)) {}
 
-  /// Right is: rows met to twice the tolerance, and the step within 500 tolerances of the exact optimum, or
-  /// of the exact optimum where each bound that the step misses by less than that is what the step meets.
+  /// Right is: rows met to twice the tolerance, and the step within 500 tolerances of the exact optimum, of
+  /// this problem or of the one whose bounds go through the step where they are that near to it.
   /// @param tolerance  that the solver states for its rows [m]
   Verdict judge(QpStatus status, const QpSolution<double>& solution, double tolerance) {
     distance_ = exact_ ? distance(solution.step, *exact_) : std::numeric_limits<double>::quiet_NaN();
@@ -41,7 +41,7 @@ class Judge {
     if (status == QpStatus::infeasible)
       return is_out_of_reach() ? Verdict::right : Verdict::falsely_infeasible;
     const double size = 1.0 + solution.step.head<3>().norm() * unit_;
-    const double give = (2.0 * tolerance + 1e-12) * size;
+    const double give = 2.0 * tolerance * size;
     if (!(violation(solution.step) <= give)) return Verdict::wrong;
     const double accepted = 500.0 * tolerance * size;
     if (exact_ && distance_ <= accepted) return Verdict::right;

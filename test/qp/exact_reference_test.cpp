@@ -104,8 +104,8 @@ BOOST_AUTO_TEST_CASE(the_judge_accepts_the_optimum_of_a_problem_that_is_as_near_
   BOOST_TEST((verdict_on(-1e-9, 0) == Verdict::right));  // 10 fm are missing
   BOOST_TEST((verdict_on(1e-9, 0) == Verdict::right));   // 10 fm more than asked
   BOOST_TEST(judge.distance() == 1e-9, boost::test_tools::tolerance(1e-12));
-  BOOST_TEST((verdict_on(-1e-6, 0) == Verdict::wrong));  // 10 pm are missing
-  BOOST_TEST((verdict_on(1e-6, 0) == Verdict::wrong));   // 10 pm more than asked
+  BOOST_TEST((verdict_on(-1e-7, 0) == Verdict::wrong));  // 1 pm is missing
+  BOOST_TEST((verdict_on(1e-7, 0) == Verdict::wrong));   // 1 pm more than asked
   BOOST_TEST((verdict_on(0, 1e-9) == Verdict::wrong));   // off both rows
 }
 
