@@ -60,9 +60,9 @@ class Judge {
   /// Its rounding is relative to what is left, not to the step, so nearly parallel rows do not amplify it.
   QpProblem<double> seen_from(const Vector6<double>& step, double give) const {
     QpProblem<double> rest = problem_;
-    const auto exact_step = step.cast<long double>();
+    const auto wide_step = step.cast<long double>();
     rest.gradient =
-        (problem_.hessian.cast<long double>() * exact_step + problem_.gradient.cast<long double>())
+        (problem_.hessian.cast<long double>() * wide_step + problem_.gradient.cast<long double>())
             .cast<double>();
     for (int k = 0; k < problem_.row_count; ++k) {
       const double missing = missing_at(step, k);
