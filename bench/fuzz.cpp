@@ -1,7 +1,7 @@
 // Renders random objects with random tools, settings and hands, and looks for penetration, crossings and false outputs with a checker
-// that shares no code with the library.
+// that shares no code with the library. With --law, scenes of which the nearest pose is known, and the laws that it obeys.
 //
-// Usage: feeler-fuzz --trials 100. Exits with 1 where something was found, after the command that repeats it.
+// Usage: feeler-fuzz --trials 100, feeler-fuzz --law all --trials 100. Exits with 1 where something was found, after the command that repeats it.
 #include <CLI/CLI.hpp>
 
 #include <algorithm>
@@ -12,6 +12,7 @@
 #include <utility>
 
 #include "command_line.hpp"
+#include "fuzz/laws/laws.hpp"
 #include "fuzz/random_tool.hpp"
 #include "fuzz/trial.hpp"
 
@@ -59,16 +60,19 @@ class Fuzzer {
 int main(int argc, char** argv) {
   unsigned seed = 0;
   int trials = 20, ticks = 300;
-  std::string tool = "all";
+  std::string tool = "all", law;
   CLI::App app("feeler-fuzz: random objects, tools, settings and hands, watched by the checker", "feeler-fuzz");
   const auto* const seed_option = app.add_option("--seed", seed, "of the first trial, the next ones count on; new each run unless given");
-  app.add_option("--trials", trials, "for each kind of tool")->check(CLI::Range(1, 1'000'000));
+  app.add_option("--trials", trials, "for each kind of tool, or for each law")->check(CLI::Range(1, 1'000'000));
   app.add_option("--ticks", ticks, "a trial")->check(CLI::Range(1, 1'000'000));
   app.add_option("--tool", tool, "all, or one kind")
       ->check(CLI::IsMember({"all", "point", "segment", "box", "polytope", "sphere", "capsule", "rounded-box", "rounded-hull", "compound"}));
+  app.add_option("--law", law, "of the nearest pose: all, or one; in place of tools")
+      ->check(CLI::IsMember({"all", "free-axes", "held-hand", "convex-room", "no-history", "forces", "status"}));
   return bench::run_with_options(app, argc, argv, [&] {
     if (seed_option->empty()) seed = std::random_device{}();
     std::printf("first seed %u\n", seed);
+    if (!law.empty()) return laws::run_laws(law, seed, trials) > 0 ? 1 : 0;
     Fuzzer fuzzer(seed, trials, ticks, tool);
     fuzzer.run("point", [](std::mt19937&) { return Point<double>(); });
     fuzzer.run("segment", fuzz::random_segment);
