@@ -37,7 +37,7 @@ struct LawFinding {
 template <class Tool>
 class LawRun {
  public:
-  explicit LawRun(const LawScene<Tool>& scene) : scene_(scene), radius_(has_turns<Tool> ? radius_of(scene.tool) : 0), mesh_(vertices_of(scene), triangles_of(scene)), renderer_(mesh_, scene.tool, scene.settings) {
+  explicit LawRun(const LawScene<Tool>& scene) : scene_(scene), radius_(has_turns<Tool> ? radius_of(scene.tool) : 0), mesh_(placed_vertices(scene), rows_of(scene.surface)), renderer_(mesh_, scene.tool, scene.settings) {
     is_started_ = renderer_.reset(compose(scene.placed, scene.start)) == Status::converged;
     hand_ = compose(scene.placed, scene.start);
   }
@@ -90,15 +90,10 @@ class LawRun {
   int ticks_of_way() const { return int(std::ceil(distance(hand_, tick().graphic_pose) / scene_.settings.trust_radius)); }
 
  private:
-  static Points<double> vertices_of(const LawScene<Tool>& scene) {
-    Points<double> points(Eigen::Index(scene.surface.vertices.size()), 3);
-    for (std::size_t i = 0; i < scene.surface.vertices.size(); ++i) points.row(Eigen::Index(i)) = (scene.placed * scene.surface.vertices[i]).transpose();
-    return points;
-  }
-  static Triangles triangles_of(const LawScene<Tool>& scene) {
-    Triangles rows(Eigen::Index(scene.surface.triangles.size()), 3);
-    for (std::size_t i = 0; i < scene.surface.triangles.size(); ++i) rows.row(Eigen::Index(i)) = scene.surface.triangles[i].transpose();
-    return rows;
+  static Points<double> placed_vertices(const LawScene<Tool>& scene) {
+    Surface placed = scene.surface;
+    for (Vector& vertex : placed.vertices) vertex = scene.placed * vertex;
+    return points_of(placed);
   }
 
   const LawScene<Tool>& scene_;

@@ -36,6 +36,7 @@ struct LawScene {
   Pose<double> start = {};
   std::function<Pose<double>(std::mt19937&)> random_hand = {};  ///< where a hand may go
   double play = std::numeric_limits<double>::infinity();        ///< of a fit, on each side [m]
+  double lever = 1;  ///< how much farther its farthest point may go than the play, where it tilts in the fit
   std::vector<FreeAxis> free_axes = {};
   std::vector<HalfSpace> walls = {};  ///< of a convex room; empty where there is none
   /// Whether every hand is turned so that the nearest pose is not: then the centre's is the nearest point of the room, closed in by the tool.
@@ -85,6 +86,14 @@ std::vector<HalfSpace> closed_in(const std::vector<HalfSpace>& walls, const Tool
   std::vector<HalfSpace> spaces = walls;
   for (HalfSpace& space : spaces) space.offset += reach(tool, rotation, space.normal) + margin;
   return spaces;
+}
+
+/// How far a tool at a pose in the scene is off the walls of a convex room, less where it is through one [m].
+template <class Tool>
+double clearance_in(const std::vector<HalfSpace>& walls, const Tool& tool, const Pose<double>& pose) {
+  Wide lowest = std::numeric_limits<Wide>::infinity();
+  for (const HalfSpace& wall : walls) lowest = std::min(lowest, wall.height(pose.translation.cast<Wide>()) - reach(tool, pose.rotation, wall.normal));
+  return double(lowest);
 }
 
 /// Pose of a frame that is given in another one.

@@ -50,6 +50,7 @@ LawScene<Tool> fit(std::mt19937& bits, const char* family, const Section& sectio
   scene.surface = hole_about(bits, section, scene.play, height);
   scene.placed = random_placement(bits);
   scene.random_hand = hand_in_a_fit({0, 0, way_along}, true);
+  scene.lever = 2 * radius_of(tool) / height;
   scene.free_axes = {{Vector::UnitZ(), true, false}};
   return scene;
 }
@@ -92,6 +93,7 @@ inline LawScene<CompoundTool<ConvexPolytope<double>>> boxes_in_slot(std::mt19937
     if (below(random, 2) == 0) pose.translation.z() = magnitude(random, -7, -3) * (below(random, 2) == 0 ? 1 : -1);
     return pose;
   };
+  scene.lever = radius_of(scene.tool) / std::min(a, b);
   scene.free_axes = {{Vector::UnitX(), false, false}, {Vector::UnitY(), false, false}, {Vector::UnitZ(), false, true}};
   return scene;
 }

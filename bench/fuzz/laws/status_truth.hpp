@@ -9,14 +9,6 @@
 
 namespace feeler::laws {
 
-/// How far a tool at a pose in the scene is off the walls of a convex room, less where it is through one [m].
-template <class Tool>
-double clearance_in(const LawScene<Tool>& scene, const Pose<double>& pose) {
-  Wide lowest = std::numeric_limits<Wide>::infinity();
-  for (const HalfSpace& wall : scene.walls) lowest = std::min(lowest, wall.height(pose.translation.cast<Wide>()) - reach(scene.tool, pose.rotation, wall.normal));
-  return double(lowest);
-}
-
 /// Looks among 2000 poses within a millimetre for one that keeps the margin and is nearer to the hand by more than the margin is worth.
 template <class Tool>
 void search_better(std::mt19937& bits, const LawScene<Tool>& scene, const LawRun<Tool>& run, LawFinding& finding) {
@@ -29,7 +21,7 @@ void search_better(std::mt19937& bits, const LawScene<Tool>& scene, const LawRun
     if (!has_turns<Tool> || i % 3 == 0) step.angular.setZero();
     const Pose<double> near = moved(run.tick().graphic_pose, step);
     const double gain = energy - run.energy(near);
-    if (gain <= worth || clearance_in(scene, relative_to(scene.placed, near)) < 0.999 * scene.settings.margin) continue;
+    if (gain <= worth || clearance_in(scene.walls, scene.tool, relative_to(scene.placed, near)) < 0.999 * scene.settings.margin) continue;
     finding.worst = std::max(finding.worst, gain / std::sqrt(2 * energy));
     return finding.complain("not the nearest", run.ticks(), "a free pose %.3g m and %.3g rad off has %.3g m2 less, the margin is worth %.3g", step.linear.norm(), step.angular.norm(), gain, worth);
   }

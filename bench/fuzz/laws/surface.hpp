@@ -55,6 +55,9 @@ struct Surface {
   }
 };
 
+inline Points<double> points_of(const Surface& surface) { return scenes::points_from(surface.vertices); }
+inline Triangles rows_of(const Surface& surface) { return scenes::triangles_from(surface.triangles); }
+
 /// Points that divide the sides of a closed polygon into so many pieces each.
 inline std::vector<Eigen::Vector2d> divided(const std::vector<Eigen::Vector2d>& polygon, int pieces) {
   std::vector<Eigen::Vector2d> points;
