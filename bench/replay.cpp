@@ -14,6 +14,9 @@
 #include "../device/demo/mesh_file.hpp"
 #include "command_line.hpp"
 #include "feeler/feeler.hpp"
+#include "golden/arithmetic.hpp"
+#include "golden/record.hpp"
+#include "golden/trajectory.hpp"
 #include "scenes/catalogue.hpp"
 #include "scenes/motions.hpp"
 #include "scenes/renderers.hpp"
@@ -38,6 +41,8 @@ struct Options {
   int work_budget = 0;        // 0: the library's default
   double margin = 0.0;        // [m]; 0: the library's default
   bool counts_work = false;   // report the work of a tick in place of its time
+  bool hashes = false;        // print one number a trajectory in place of figures
+  std::string golden_file;    // compare them with those of this file; empty: print them
 };
 
 /// What one replay found.
@@ -150,13 +155,99 @@ void print(const std::string& name, const Figures& figures, const Options& optio
   std::fflush(stdout);
 }
 
-void run(const std::string& name, const feeler::scenes::Scene& scene, const Options& options) {
-  std::visit([&](const auto& tool) { print(name, replay(scene, tool, options), options); }, scene.tool);
+/// Calls `use(scene, tool)` with the tool that the scene holds.
+template <class Use>
+void with_tool(const feeler::scenes::Scene& scene, const Use& use) {
+  std::visit([&](const auto& tool) { use(scene, tool); }, scene.tool);
+}
+template <class Use>
+void with_tool(const feeler::scenes::CompoundScene& scene, const Use& use) {
+  use(scene, feeler::CompoundTool<feeler::ConvexPolytope<double>>::hulls_of(scene.pieces));
 }
 
-void run(const std::string& name, const feeler::scenes::CompoundScene& scene, const Options& options) {
-  using Tool = feeler::CompoundTool<feeler::ConvexPolytope<double>>;
-  print(name, replay(scene, Tool::hulls_of(scene.pieces), options), options);
+/// Calls `use(name, scene, tool)` for each scene that is asked for, and `skip(name, file)` for one whose file is not here.
+template <class Use, class Skip>
+void for_each_scene(const Options& options, const Use& use, const Skip& skip) {
+  const auto wanted = [&](const std::string& name) { return options.scene == "all" || options.scene == name; };
+  for (const auto& entry : feeler::scenes::catalogue()) {
+    if (!wanted(entry.family)) continue;
+    const auto use_named = [&](const auto& scene, const auto& tool) { use(entry.label, scene, tool); };
+    std::visit([&](const auto& scene) { with_tool(scene, use_named); }, entry.make());
+  }
+  if (!wanted("teeth")) return;
+  const std::filesystem::path file = "../shared/meshes/lower_teeth.stl";
+  if (!std::filesystem::exists(file)) return skip("teeth", file);
+  auto mesh = feeler::demo::load_mesh(file, 1.0);
+  with_tool(feeler::scenes::lower_teeth(feeler::scenes::teeth_vertices(mesh.vertices), std::move(mesh.triangles)),
+            [&](const auto& scene, const auto& tool) { use("teeth", scene, tool); });
+}
+
+int print_figures(const Options& options) {
+  print_header(options);
+  for_each_scene(
+      options, [&](const std::string& name, const auto& scene, const auto& tool) { print(name, replay(scene, tool, options), options); },
+      [](const char* name, const std::filesystem::path& file) { std::printf("%s: skipped, %s is not here\n", name, file.c_str()); });
+  return 0;
+}
+
+int print_hashes(const Options& options) {
+  std::fputs(feeler::bench::golden_head(feeler::bench::arithmetic()).c_str(), stdout);
+  for_each_scene(
+      options,
+      [](const std::string& name, const auto& scene, const auto& tool) {
+        std::fputs(feeler::bench::golden_line(name, feeler::bench::golden_hashes(scene, tool)).c_str(), stdout);
+        std::fflush(stdout);
+      },
+      [](const char* name, const std::filesystem::path& file) { std::fprintf(stderr, "%s: left out, %s is not here\n", name, file.c_str()); });
+  return 0;
+}
+
+/// Says of each scene whether its trajectories are those of the file.
+/// @return 0 if they are, 1 if one is not, 77 if the file is of another arithmetic, in which they cannot be
+int compare_hashes(const Options& options) {
+  constexpr int differs = 1, is_skipped = 77;
+  auto golden = feeler::bench::read_golden_record(options.golden_file);
+  const std::string file = options.golden_file;
+  if (const auto arithmetic = feeler::bench::arithmetic(); arithmetic != golden.arithmetic) {
+    std::printf("skipped: last bits of sin, cos, tan, atan2, exp or x y + z differ here from those of %s (arithmetic %s, not %s), and so do trajectories\n",
+                file.c_str(), feeler::bench::hexadecimal(arithmetic).c_str(), feeler::bench::hexadecimal(golden.arithmetic).c_str());
+    return is_skipped;
+  }
+  int others = 0;
+  for_each_scene(
+      options,
+      [&](const std::string& name, const auto& scene, const auto& tool) {
+        const auto hashes = feeler::bench::golden_hashes(scene, tool);
+        const auto entry = golden.scenes.find(name);
+        if (entry == golden.scenes.end()) {
+          ++others;
+          std::printf("%s: is not in %s\n", name.c_str(), file.c_str());
+        } else if (hashes != entry->second) {
+          ++others;
+          std::printf("%s: another trajectory than in %s at", name.c_str(), file.c_str());
+          for (std::size_t i = 0; i < hashes.size(); ++i) {
+            if (hashes[i] != entry->second[i]) std::printf(" [%s]", feeler::bench::golden_hands[i].name);
+          }
+          std::printf("\n");
+        } else {
+          std::printf("%s: the same\n", name.c_str());
+        }
+        golden.scenes.erase(name);
+        std::fflush(stdout);
+      },
+      [&](const char* name, const std::filesystem::path& mesh) {
+        std::printf("%s: skipped, %s is not here\n", name, mesh.c_str());
+        golden.scenes.erase(name);
+      });
+  if (options.scene == "all") {
+    for (const auto& [name, hashes] : golden.scenes) {
+      ++others;
+      std::printf("%s: is in %s alone\n", name.c_str(), file.c_str());
+    }
+  }
+  if (others == 0) return 0;
+  std::printf("scenes that differ: %d. A change that was to change no behaviour has changed it; if that was meant: feeler-replay --hash > %s\n", others, file.c_str());
+  return differs;
 }
 
 }  // namespace
@@ -174,22 +265,10 @@ int main(int argc, char** argv) {
   app.add_option("--budget", options.work_budget, "Settings::work_budget; 0 for the default")->check(CLI::NonNegativeNumber);
   app.add_option("--margin", options.margin, "Settings::margin in metres; 0 for the default");
   app.add_flag("--work", options.counts_work, "report the work of a tick, which does not depend on the machine, in place of its time");
+  app.add_flag("--hash", options.hashes, "print one number for the bits of each scene's trajectory at 1 kHz, at 10 kHz and with a hostile hand; of the other options --scene alone counts");
+  app.add_option("--against", options.golden_file, "with --hash: compare with this file; 1 if a scene differs, 77 if the file is of another arithmetic")->needs("--hash");
   return feeler::bench::run_with_options(app, argc, argv, [&] {
-    const auto wanted = [&](const std::string& name) { return options.scene == "all" || options.scene == name; };
-    print_header(options);
-    for (const auto& entry : feeler::scenes::catalogue()) {
-      if (!wanted(entry.family)) continue;
-      std::visit([&](const auto& scene) { run(entry.label, scene, options); }, entry.make());
-    }
-    if (wanted("teeth")) {
-      const std::filesystem::path file = "../shared/meshes/lower_teeth.stl";
-      if (std::filesystem::exists(file)) {
-        auto mesh = feeler::demo::load_mesh(file, 1.0);
-        run("teeth", feeler::scenes::lower_teeth(feeler::scenes::teeth_vertices(mesh.vertices), std::move(mesh.triangles)), options);
-      } else {
-        std::printf("teeth: skipped, %s is not here\n", file.c_str());
-      }
-    }
-    return 0;
+    if (!options.hashes) return print_figures(options);
+    return options.golden_file.empty() ? print_hashes(options) : compare_hashes(options);
   });
 }

@@ -68,8 +68,9 @@ inline Motion hostile(Motion motion, std::uint32_t seed, double rate = 1000.0) {
     const bool far = random.unit() < 1.0 / 16.0;
     const double distance = far ? 10.0 : 0.05 * random.unit();
     pose.translation += distance * random.direction();
-    const Vector turn = 3.0 * random.unit() * random.direction();
-    pose.rotation = (exp_rotation(turn) * pose.rotation).normalized();
+    const Vector axis = random.direction();  // before the angle: within one expression compilers would differ
+    const double angle = 3.0 * random.unit();
+    pose.rotation = (exp_rotation(Vector(angle * axis)) * pose.rotation).normalized();
     return pose;
   };
 }

@@ -8,6 +8,7 @@
 #include <cstdio>
 #include <memory>
 #include <thread>
+#include <type_traits>
 
 #include "bad_input.hpp"
 #include "feeler/device/conversion.hpp"
@@ -140,7 +141,8 @@ Recording run(const scenes::Scene& scene, const Tool& tool, const SessionSetting
   }
   // Touched before the loop, with room for the longest way.
   recording.ticks.resize(std::size_t(std::ceil(settings.rate * settings.seconds)));
-  const int longest_way = std::min(scene.settings().maximum_iterations, Tick<double>::path_capacity);
+  const int longest_way =
+      std::min(scene.settings().maximum_iterations + IdleTurns<std::remove_cvref_t<decltype(tool)>>::legs, Tick<double>::path_capacity);
   recording.way.resize(1 + recording.ticks.size() * std::size_t(longest_way));
   recording.way.front() = renderer.tick().graphic_pose;
   std::size_t way_end = 1;

@@ -320,6 +320,83 @@ BOOST_AUTO_TEST_CASE(the_turns_of_a_sphere_are_those_of_the_device_bit_for_bit_a
   BOOST_TEST(contact_ticks > 100);
 }
 
+BOOST_AUTO_TEST_CASE(half_a_turn_that_does_not_matter_has_two_legs_that_tell_which_way_round_it_goes) {
+  const auto mesh = cube(0.02, false);
+  const auto check = [&](const auto& tool, const Vector3<double>& reference, bool is_about_axis) {
+    scenes::RandomBits random(63);
+    double longest = 0, moved = 0;
+    int long_turns = 0, wrong_ends = 0;
+    for (int i = 0; i < 300; ++i) {
+      HapticRenderer renderer(mesh, tool, settings_about(reference));
+      const Vector3<double> height(0, 0, i % 2 == 0 ? 0.1 : 0.02 + radius - 0.001);  // free, or pressed on the cube
+      const Vector3<double> across = random.direction();
+      const Quaternion<double> lying = is_about_axis ? exp_rotation<double>({0, 0, across.x()}) : exp_rotation<double>(across);
+      const auto hand = [&](const Quaternion<double>& rotation) { return Pose<double>{height - rotation * reference, rotation}; };
+      come_down(renderer, hand(lying), {0, 0, 0.05}, 40);
+      const Pose<double> start = renderer.tick().graphic_pose;
+      const Vector3<double> axis = is_about_axis ? Vector3<double>(lying * Vector3<double>::UnitX()) : random.direction();
+      Quaternion<double> rotation = exp_rotation<double>((std::numbers::pi + 0.3 * (random.unit() - 0.5)) * axis) * lying;
+      if (i % 3 == 0) rotation.coeffs() = -rotation.coeffs();
+      const auto& tick = renderer.update(hand(rotation));
+      const Pose<double>* from = &start;
+      for (const auto& to : tick.path) {
+        const WideVector turn = twist_between(*from, to).angular;
+        longest = std::max(longest, static_cast<double>(turn.norm()));
+        // All along the leg the core stays where it is.
+        for (const double time : {0.25, 0.5, 0.75, 1.0}) {
+          const Eigen::Quaternion<WideReal> on_way = rotation_by(turn * time) * checked_pose(*from).rotation;
+          for (int k = 0; k < tool.vertex_count(); ++k) {
+            const WideVector core = on_way * (tool.vertex(k) - reference).template cast<WideReal>();
+            moved = std::max(moved, static_cast<double>((core - (start.rotation * (tool.vertex(k) - reference)).template cast<WideReal>()).norm()));
+          }
+        }
+        from = &to;
+      }
+      long_turns += tick.path.size() == 2;
+      wrong_ends += tick.path.empty() || !is_same(tick.path.back(), tick.graphic_pose) || pose_error(hand(rotation), tick.graphic_pose).angle > 1e-6;
+    }
+    BOOST_TEST_MESSAGE(long_turns << " turns of two legs, the longest leg by " << longest << " rad; the core moved by " << moved << " m");
+    BOOST_TEST(longest <= 3.0001);
+    BOOST_TEST(moved <= 1e-9);
+    BOOST_TEST(long_turns > 250);
+    BOOST_TEST(wrong_ends == 0);
+  };
+  check(Sphere<double>({0.01, -0.02, 0.03}, radius), {0.01, -0.02, 0.03}, false);
+  check(Capsule<double>({{-0.02, 0, 0}, {0.02, 0, 0}}, radius), {0.004, 0, 0}, true);
+}
+
+BOOST_AUTO_TEST_CASE(no_leg_of_a_round_tool_turns_by_more_than_three_radians_whatever_the_hand_does) {
+  const auto mesh = cube(0.02, false);
+  const auto check = [&](const auto& tool, auto settings) {
+    settings.maximum_iterations = 32;  // and the way has room for all legs
+    HapticRenderer renderer(mesh, tool, settings);
+    BOOST_TEST_REQUIRE((renderer.reset({{0, 0, 0.1}, Quaternion<double>::Identity()}) == Status::converged));
+    scenes::RandomBits random(64);
+    Pose<double> hand{{0, 0, 0.1}, Quaternion<double>::Identity()};
+    double longest = 0;
+    int contact_ticks = 0;
+    for (int i = 0; i < 2000; ++i) {
+      const Vector3<double> axis = random.direction();
+      hand.rotation = exp_rotation<double>((std::numbers::pi - 0.1 * random.unit()) * axis) * hand.rotation;
+      hand.translation = 0.03 * random.unit() * random.direction() + Vector3<double>(0, 0, 0.02);
+      Pose<double> from = renderer.tick().graphic_pose;
+      const auto& tick = renderer.update(hand);
+      BOOST_TEST(is_valid(tick, mesh.triangle_count()));
+      for (const auto& to : tick.path) {
+        longest = std::max(longest, pose_error(from, to).angle);
+        from = to;
+      }
+      contact_ticks += !tick.contacts.empty();
+    }
+    BOOST_TEST_MESSAGE("the longest leg turns by " << longest << " rad; " << contact_ticks << " contact ticks");
+    BOOST_TEST(longest <= 3.0001);
+    BOOST_TEST(contact_ticks > 200);
+  };
+  check(Sphere<double>(radius), settings_about({0, 0, 0}));
+  check(Capsule<double>({{-0.02, 0, 0}, {0.02, 0, 0}}, radius), settings_about({0, 0, 0}));
+  check(Segment<double>({-0.02, 0, 0}, {0.02, 0, 0}), settings_about({0.004, 0, 0}));
+}
+
 BOOST_AUTO_TEST_CASE(a_sphere_that_is_held_by_a_lever_is_refused_as_a_sphere_and_turns_as_a_compound_tool) {
   const auto mesh = cube(0.02, false);
   const Sphere<double> ball({0, 0, -0.05}, radius);

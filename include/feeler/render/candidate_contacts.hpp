@@ -13,6 +13,7 @@
 #include "feeler/render/motion_certificate.hpp"
 #include "feeler/render/rendered_scene.hpp"
 #include "feeler/render/tick.hpp"
+#include "feeler/spatial/half_way.hpp"
 #include "feeler/tool/swept_tool.hpp"
 
 namespace feeler {
@@ -65,6 +66,7 @@ class CandidateContactsFollower {
       const auto& solutions = search_.solutions();
       if (!solutions.empty()) {  // else there is nothing to choose: stay
         pose_ = solutions[0].pose;
+        if (const auto middle = half_way_of_long_turn(start_, pose_)) tick.path.push_back(scene.tool_pose(*middle));
         active_ = solutions[0].active;
         regions_.keep_in_contact(scene, pose_, active_);
       }

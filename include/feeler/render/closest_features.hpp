@@ -14,6 +14,7 @@
 #include "feeler/render/step_limits.hpp"
 #include "feeler/render/tick.hpp"
 #include "feeler/render/work_budget.hpp"
+#include "feeler/spatial/half_way.hpp"
 
 namespace feeler {
 
@@ -119,6 +120,7 @@ class ClosestFeaturesFollower {
     if constexpr (IdleTurns<typename Scene::Tool>::legs > 0) {
       const Pose<Scalar> turned = scene.idle_turns().following(pose_, target_);
       if (turned.rotation.coeffs() == pose_.rotation.coeffs()) return;
+      if (const auto middle = half_way_of_long_turn(pose_, turned)) tick.path.push_back(scene.tool_pose(*middle));
       pose_ = turned;
       tick.path.push_back(scene.tool_pose(pose_));
     }

@@ -27,8 +27,8 @@ class IdleTurns {
  public:
   using Scalar = typename Tool::Scalar;
   static constexpr Symmetry symmetry = symmetry_of<Tool>;
-  /// Legs of a tick's path that may be idle turns: one before the motion, one after it.
-  static constexpr int legs = symmetry == Symmetry::none ? 0 : 2;
+  /// Legs of a tick's path that may be idle turns: one before the motion and one after it, each of two where it is about half a turn.
+  static constexpr int legs = symmetry == Symmetry::none ? 0 : 4;
 
   /// Refuses a reference point beside the centre of a tool that has one.
   IdleTurns(const Tool& tool, const Vector3<Scalar>& reference, const Metric<Scalar>& metric) {
