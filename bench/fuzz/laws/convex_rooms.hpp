@@ -19,7 +19,7 @@ inline void put_ball_above(LawScene<Sphere<double>>& scene, double width, double
   const auto floor_at = [room](double x, double y) {
     Wide height = -std::numeric_limits<Wide>::infinity();
     for (const HalfSpace& space : room)
-      if (space.normal.z() > 0.05L) height = std::max(height, (space.offset - space.normal.x() * x - space.normal.y() * y) / space.normal.z());
+      if (space.normal.z() > 0.05L) height = std::max(height, (space.offset - space.normal.x() * Wide(x) - space.normal.y() * Wide(y)) / space.normal.z());
     return double(height);
   };
   scene.start.translation = {0, 0, floor_at(0, 0) + 0.002};
@@ -44,11 +44,11 @@ inline LawScene<Sphere<double>> ball_in_trough(std::mt19937& bits) {
   std::sort(slopes.begin(), slopes.end());
   std::vector<WideVector> profile{WideVector::Zero()};
   for (const double slope : slopes) {
-    const Wide part = (kind == 2 ? 0.2 + fraction(bits) : 1.0) * (kind == 0 ? 1 / std::cos(slope) : 1.0);
-    profile.push_back(profile.back() + part * WideVector(std::cos(Wide(slope)), 0, std::sin(Wide(slope))));
+    const Wide part = Wide(kind == 2 ? 0.2 + fraction(bits) : 1.0) * Wide(kind == 0 ? 1 / std::cos(slope) : 1.0);
+    profile.emplace_back(profile.back() + part * WideVector(std::cos(Wide(slope)), 0, std::sin(Wide(slope))));
   }
-  const Wide scale = 2 * width / profile.back().x();
-  for (WideVector& p : profile) p = scale * p - WideVector(width, 0, 0);
+  const Wide scale = 2 * Wide(width) / profile.back().x();
+  for (WideVector& p : profile) p = scale * p - WideVector(Wide(width), 0, 0);
   const int strips = 1 + below(bits, 3);
   std::vector<Vector> corners;
   for (int i = 0; i <= n; ++i)
@@ -65,7 +65,7 @@ inline LawScene<Sphere<double>> ball_in_trough(std::mt19937& bits) {
   if (below(bits, 3) == 0) {
     const double side = below(bits, 2) == 0 ? 1 : -1;
     scene.surface.sheet(bits, {-3 * width, side * end, -3 * width}, {6 * width, 0, 0}, {0, 0, 9 * width}, 1, 1);
-    scene.walls.push_back({WideVector(0, -side, 0), -Wide(end)});
+    scene.walls.push_back({WideVector(0, Wide(-side), 0), -Wide(end)});
     travel = 0.005;
   }
   scene.placed = random_placement(bits);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cmath>
+#include <cstdarg>
 #include <cstdio>
 #include <random>
 #include <string>
@@ -23,11 +24,15 @@ struct LawFinding {
   double worst = 0;      ///< of what the law measures
   std::string kind;      ///< how it is broken, in a word or two; empty if it is not
   std::string problem;   ///< the first, with its tick
-  template <class... Arguments>
-  void complain(const char* how, long tick, const char* format, Arguments... arguments) {
+
+  /// Keeps the first complaint.
+  [[gnu::format(printf, 4, 5)]] void complain(const char* how, long tick, const char* format, ...) {
     if (!kind.empty()) return;
     char text[300];
-    std::snprintf(text, sizeof text, format, arguments...);
+    std::va_list arguments;
+    va_start(arguments, format);
+    std::vsnprintf(text, sizeof text, format, arguments);
+    va_end(arguments);
     kind = how;
     problem = "tick " + std::to_string(tick) + ": " + text;
   }

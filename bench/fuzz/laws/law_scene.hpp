@@ -67,7 +67,7 @@ double radius_of(const Tool& tool) {
 template <class Tool>
 Wide reach(const Tool& tool, const Eigen::Quaterniond& rotation, const WideVector& normal) {
   if constexpr (std::is_same_v<Tool, Sphere<double>>) {
-    return tool.swept_radius();
+    return Wide(tool.swept_radius());
   } else if constexpr (requires { tool.piece(0); }) {
     Wide farthest = -std::numeric_limits<Wide>::infinity();
     for (int i = 0; i < tool.piece_count(); ++i) farthest = std::max(farthest, reach(tool.piece(i), rotation, normal));
@@ -84,7 +84,7 @@ Wide reach(const Tool& tool, const Eigen::Quaterniond& rotation, const WideVecto
 template <class Tool>
 std::vector<HalfSpace> closed_in(const std::vector<HalfSpace>& walls, const Tool& tool, const Eigen::Quaterniond& rotation, double margin) {
   std::vector<HalfSpace> spaces = walls;
-  for (HalfSpace& space : spaces) space.offset += reach(tool, rotation, space.normal) + margin;
+  for (HalfSpace& space : spaces) space.offset += reach(tool, rotation, space.normal) + Wide(margin);
   return spaces;
 }
 
