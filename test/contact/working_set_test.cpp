@@ -61,16 +61,16 @@ BOOST_AUTO_TEST_CASE(a_triangle_leaves_after_a_tick_in_which_it_was_neither_used
   set.add(0, 1, Corners::Zero()).slack = 1e-7;  // touches
   set.add(0, 2, Corners::Zero()).slack = 1e-4;
   set.add(0, 3, Corners::Zero()).slack = 1e-4;
-  set.age(4e-6, false);
+  set.age(4e-6, 0, false);
   BOOST_TEST(set.size() == 3);  // new in the tick that ends
   for (int tick = 0; tick < 5; ++tick) {
     set[set.find(0, 3)].note_use();
-    set.age(4e-6, false);
+    set.age(4e-6, 0, false);
     BOOST_TEST(set.find(0, 1) >= 0);
     BOOST_TEST(set.find(0, 2) == -1);
     BOOST_TEST(set.find(0, 3) >= 0);
   }
-  set.age(4e-6, false);
+  set.age(4e-6, 0, false);
   BOOST_TEST(set.find(0, 3) == -1);
   BOOST_TEST(set.size() == 1);
 }
@@ -79,9 +79,9 @@ BOOST_AUTO_TEST_CASE(a_touching_pair_that_repeats_others_leaves_like_one_that_do
   Set set;
   set.add(0, 1, Corners::Zero()).state = feeler::PairState::has_rows;
   set.add(0, 2, Corners::Zero()).state = feeler::PairState::repeats;
-  set.age(4e-6, false);
+  set.age(4e-6, 0, false);
   BOOST_TEST(set.size() == 2);
-  set.age(4e-6, false);
+  set.age(4e-6, 0, false);
   BOOST_TEST(set.size() == 1);
   BOOST_TEST(set[0].triangle == 1);
 }
@@ -90,9 +90,9 @@ BOOST_AUTO_TEST_CASE(a_ghost_that_was_kept_is_kept_on_only_as_long_as_asked) {
   Set set;
   set.add(0, 1, Corners::Zero());
   set[0].keeps_ghost = true;
-  set.age(1, true);
+  set.age(1, 0, true);
   BOOST_TEST(set[0].keeps_ghost);
-  set.age(1, false);
+  set.age(1, 0, false);
   BOOST_TEST(!set[0].keeps_ghost);
 }
 
@@ -101,10 +101,10 @@ BOOST_AUTO_TEST_CASE(what_touches_but_never_holds_leaves_in_the_end) {
   for (int triangle = 0; triangle < 2; ++triangle) set.add(0, triangle, Corners::Zero()).state = feeler::PairState::has_rows;
   for (int tick = 0; tick < Set::longest_unused; ++tick) {
     if (tick % 100 == 0) set[set.find(0, 1)].note_use();
-    set.age(4e-6, false);
+    set.age(4e-6, 0, false);
     BOOST_TEST(set.size() == 2);
   }
-  set.age(4e-6, false);
+  set.age(4e-6, 0, false);
   BOOST_TEST(set.find(0, 0) == -1);
   BOOST_TEST(set.find(0, 1) == 0);
 }

@@ -343,11 +343,11 @@ BOOST_AUTO_TEST_CASE_TEMPLATE(a_wall_without_clearance_goes_on_beyond_the_triang
   feeler::Pose<double> pose;
   pose.translation = Vector(0.01, 0, 0.01 + 3e-5);  // its bottom is 30 µm above where the next begins
   const feeler::MovingTool<Box> moving(box, Vector::Zero(), 0.02, pose, {Vector(0, 0, -1e-4), Vector::Zero()});
-  const auto sweep_knowing = [&](bool is_tight) {
+  const auto sweep_knowing = [&](bool knows_wall) {
     std::vector<KnownTriangle<double>> known;
     for (int i = 0; i < 4; ++i) {
       const Eigen::Matrix3d corners = mesh.corners(i).colwise() - moving.origin();
-      known.push_back({i, {corners, i < 2 ? Vector::UnitX() : Vector::UnitZ(), {}, true}, is_tight && i < 2});
+      if (i >= 2 || knows_wall) known.push_back({i, {corners, i < 2 ? Vector::UnitX() : Vector::UnitZ(), {}, true}});
     }
     PlaneCache<double> planes;
     int work = 0;

@@ -158,7 +158,7 @@ BOOST_AUTO_TEST_CASE(what_stopped_a_step_can_be_kept_where_it_ended_though_nothi
   auto& problem = room.lines.problem();
   const Twist<double> from_hand{Vector(-2e-4, 0, 0), Vector::Zero()};  // the hand is in the wall
   problem.project(room.scene.metric(), from_hand, room.scene.margin());
-  problem.bend(room.scene.metric(), from_hand, room.scene.margin());
+  problem.bend(room.scene.metric(), from_hand);
   BOOST_TEST_REQUIRE(!problem.is_free());
   const Twist<double> back = Room::along_x(-5e-5);
   room.lines.remember_stops(back);
@@ -190,7 +190,7 @@ BOOST_AUTO_TEST_CASE(of_pairs_with_the_same_rows_one_has_them_and_when_it_leaves
   room.lines.pairs()[room.lines.pairs().find(0, 0)].slack = 1;
   for (int tick = 0; tick < 2; ++tick) {
     for (const int used : {2, 3}) room.lines.pairs()[room.lines.pairs().find(0, used)].note_use();
-    room.lines.pairs().age(4e-6, false);
+    room.lines.pairs().age(4e-6, 0, false);
   }
   BOOST_TEST(room.lines.pairs().find(0, 0) == -1);
   BOOST_TEST(!room.lines.start_carried(room.scene, Room::stand(1e-6), reach, room.tick));

@@ -99,19 +99,18 @@ class ContactPatch {
     return true;
   }
 
-  /// After `find`: calls `visit(triangle)` for each triangle that continues the plane of this one, beside it, to a tool vertex no farther from that
-  /// plane than `gap` [m]: it holds that vertex. Some are visited more than once.
+  /// After `find`: calls `visit(triangle)` for each triangle in the plane of this one, beside it, that is under a tool vertex no farther from that plane
+  /// than `gap` [m]: it holds that vertex. Some are visited more than once.
   template <class Visit>
   void visit_continuations(Scalar gap, const Visit& visit) const noexcept {
     if (!triangle_.has_face()) return;
     for (const int i : near_) {
       const Vector vertex = tool_.vertex(i);
       if (std::abs(gap_above_face(vertex)) > gap) continue;
-      for (int k = 0; k < 3; ++k) {
-        if (triangle_.room_inside(k, vertex) >= -seam_) continue;
-        const int neighbour = surface_.neighbour(k);
-        if (neighbour >= 0 && surface_.is_in_plane(neighbour, triangle_.face_normal())) visit(neighbour);
-      }
+      const bool is_inside = triangle_.room_inside(0, vertex) >= -seam_ && triangle_.room_inside(1, vertex) >= -seam_ && triangle_.room_inside(2, vertex) >= -seam_;
+      if (is_inside) continue;
+      const int under = surface_.triangle_under(vertex, triangle_.corner(0));
+      if (under >= 0 && surface_.is_in_plane(under, triangle_.face_normal())) visit(under);
     }
   }
 
@@ -161,8 +160,10 @@ class ContactPatch {
     if (std::abs(gap) > largest_gap_) return;
     Scalar room = std::numeric_limits<Scalar>::infinity();
     for (int k = 0; k < 3; ++k) {
-      room = std::min(room, triangle_.room_inside(k, vertex));
-      if (!(room >= -seam_)) return;
+      const Scalar inside = triangle_.room_inside(k, vertex);
+      if (inside >= -seam_) room = std::min(room, inside);
+      // Beyond a valley what is free is above both faces, and the step may lead back over this one.
+      else if (!(inside >= -band_) || !surface_.rises_across(k, triangle_.outward())) return;
     }
     rows.push_back(maker_.row_of(FeaturePair::vertex_face, triangle_.outward(), vertex, gap, room));
   }
@@ -272,12 +273,17 @@ class ContactPatch {
     const Vector across = u.cross(tool);
     const Scalar along_object = between.cross(tool).dot(across) / cross_squared;
     const Scalar part_of_tool = between.cross(u).dot(across) / cross_squared;
-    if (!(along_object >= Scalar(0) && along_object <= object.length && part_of_tool >= Scalar(0) && part_of_tool <= Scalar(1))) return;
+    if (!(part_of_tool >= Scalar(0) && part_of_tool <= Scalar(1))) return;
+    const Scalar beyond = std::max(-along_object, along_object - object.length);
+    if (!(beyond <= band_)) return;
     const Vector normal = cross / (along_normal < Scalar(0) ? -std::sqrt(cross_squared) : std::sqrt(cross_squared));
     const Scalar gap = maker_.on_surface(normal.dot(between));
     if (std::abs(gap) > largest_gap_ || !surface_.is_clear_of_neighbour_across(object.number, normal)) return;
+    // As beyond a valley.
+    if (beyond > Scalar(0) && !surface_.rises_beyond(along_object < Scalar(0) ? object.number : (object.number + 1) % 3,
+                                                     along_object < Scalar(0) ? Vector(-u) : u, normal)) return;
     const Scalar tool_length = std::sqrt(tool_squared);
-    const Scalar room = std::min({along_object, object.length - along_object, part_of_tool * tool_length, (1 - part_of_tool) * tool_length});
+    const Scalar room = std::min({std::max(-beyond, Scalar(0)), part_of_tool * tool_length, (1 - part_of_tool) * tool_length});
     rows.push_back(maker_.row_of_edges(normal, Vector(tool_start + part_of_tool * tool), gap, room, u, Vector(tool / tool_length)));
   }
 

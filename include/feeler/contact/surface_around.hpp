@@ -88,6 +88,21 @@ class SurfaceAround {
     return true;
   }
 
+  /// The other triangle that a point is over, or the one where the walk to it over the flat part of the surface ends; -1 if that ends at once.
+  /// @param corner  the triangle's first [m]
+  int triangle_under(const Vector& point, const Vector& corner) const noexcept {
+    constexpr int longest_walk = 16;
+    const Vector origin = mesh_.vertex(mesh_.triangle(triangle_)[0]).template cast<Scalar>();
+    const Vector point_world = world_from_tool_ * (point - corner) + origin;
+    int triangle = triangle_;
+    for (int step = 0; step < longest_walk; ++step) {
+      const int edge = edge_towards(mesh_, triangle, point_world, seam_);
+      if (edge < 0 || mesh_.topology().edge_convexity(triangle, edge) != Convexity::flat) break;
+      triangle = mesh_.topology().neighbour(triangle, edge);
+    }
+    return triangle != triangle_ ? triangle : -1;
+  }
+
   /// Whether the mesh rises from the plane of the triangle, on the side of a normal, across an edge.
   bool rises_across(int edge, const Vector& normal) const noexcept {
     const int other = neighbour(edge);
@@ -98,6 +113,18 @@ class SurfaceAround {
     return std::any_of(corners.begin(), corners.end(), [&](int corner) {
       const Vector along = mesh_.vertex(corner).template cast<Scalar>() - start_world;
       return normal_world.dot(along) > tolerance * along.norm();
+    });
+  }
+  /// Whether the mesh beside the triangle rises from a plane through a corner, on the side of its normal, in a direction along it.
+  bool rises_beyond(int corner, const Vector& direction, const Vector& normal) const noexcept {
+    const auto& own = mesh_.triangle(triangle_);
+    const int vertex = own[std::size_t(corner)];
+    const auto neighbours = mesh_.topology().vertex_neighbours(vertex);
+    const Vector direction_world = world_from_tool_ * direction, normal_world = world_from_tool_ * normal;
+    return int(neighbours.size()) <= max_cone_valence && std::any_of(neighbours.begin(), neighbours.end(), [&](int other) {
+      if (std::find(own.begin(), own.end(), other) != own.end()) return false;
+      const Vector along = (mesh_.vertex(other) - mesh_.vertex(vertex)).template cast<Scalar>();
+      return direction_world.dot(along) > Scalar(0) && normal_world.dot(along) > tolerance * along.norm();
     });
   }
   /// Whether another triangle lies in the plane of this one.

@@ -1,6 +1,8 @@
 // The few pairs of tool piece and triangle that hold the tool or lately did, from tick to tick.
 #pragma once
 
+#include <algorithm>
+
 #include "feeler/core/fixed_vector.hpp"
 #include "feeler/core/scalar.hpp"
 #include "feeler/proximity/gjk.hpp"
@@ -29,7 +31,6 @@ struct WorkingPair {
   int unused_ticks = 0;     ///< ticks since it held the tool or blocked a motion
   PairState state = PairState::left_out;
   bool is_ghost = false;    ///< at the certified pose a neighbour was nearer, and its plane means nothing
-  bool is_tight = false;    ///< there was no room for the margin at its last step
   bool keeps_ghost = false; ///< it blocked although its row looked like a ghost: give it a row all the same
 
   /// It holds the tool, or blocks a motion.
@@ -68,6 +69,10 @@ class WorkingSet {
   const Pair* begin() const noexcept { return pairs_.begin(); }
   const Pair* end() const noexcept { return pairs_.end(); }
   bool full() const noexcept { return pairs_.full(); }
+  /// Whether a pair touches, with a separation below `none` [m]: without clearance all walls do.
+  bool has_no_clearance(Scalar none) const noexcept {
+    return std::any_of(pairs_.begin(), pairs_.end(), [none](const Pair& pair) { return pair.slack < none; });
+  }
   void clear() noexcept { pairs_.clear(); }
 
   /// Position of a pair, or -1.
@@ -101,13 +106,15 @@ class WorkingSet {
   }
 
   /// Counts a tick, and drops what was not used in it, nor lies closer than `touch` [m] and does more than repeat others; and what has been unused
-  /// for too long.
-  void age(Scalar touch, bool goes_on) noexcept {
+  /// for too long. What is closer than `noticed` [m] stays, unless that is 0: it would be noticed again.
+  void age(Scalar touch, Scalar noticed, bool goes_on) noexcept {
     for (int i = pairs_.size() - 1; i >= 0; --i) {
       Pair& pair = pairs_[i];
       if (!goes_on) pair.keeps_ghost = false;
+      ++pair.unused_ticks;
+      if (noticed > Scalar(0) && pair.slack < noticed) continue;
       const bool touches = pair.slack < touch && pair.state != PairState::repeats;
-      if (++pair.unused_ticks > (touches ? longest_unused : 1)) pairs_.swap_remove(i);
+      if (pair.unused_ticks > (touches ? longest_unused : 1)) pairs_.swap_remove(i);
     }
   }
 

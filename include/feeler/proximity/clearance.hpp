@@ -11,7 +11,7 @@ namespace feeler {
 template <class Scalar>
 struct Clearance {
   Scalar kept = Scalar(1e-7);        ///< separation required wherever there is that much to begin with [m]
-  Scalar kept_from_unknown = kept;   ///< the same from triangles that a sweep is not told of: they are to be known before they hold the tool [m]
+  Scalar noticed = kept;             ///< what comes nearer and is not known is told: it may be what holds the tool [m]
   Scalar rounding = Scalar(0);       ///< of the poses that are returned: where there is that much to begin with, no motion leaves less [m]
   Scalar allowance = Scalar(5e-12);  ///< overlap accepted where there is no clearance at all; rounding, never accumulated [m]
   Scalar touching = Scalar(1e-8);    ///< see `touching_distance` [m]
@@ -22,12 +22,6 @@ struct Clearance {
   Scalar negligible() const noexcept { return 2 * allowance; }
   /// With a separation below it a wall is slid along without clearance, whichever of its triangles was measured [m].
   Scalar none() const noexcept { return 20 * allowance; }
-  /// The same, with what is kept from unknown triangles kept from all.
-  Clearance from_unknown() const noexcept {
-    Clearance clearance = *this;
-    clearance.kept = kept_from_unknown;
-    return clearance;
-  }
   /// Separation required along a motion that starts `start` away: tight fits may halve it, an overlap may stay but not grow. To halve
   /// what is negligible too would stop a tool that slides in such a fit.
   Scalar required(Scalar start) const noexcept {

@@ -21,6 +21,7 @@ struct Passage {
   Vector3<Scalar> normal = Vector3<Scalar>::Zero();  ///< world normal of a plane that holds at both ends, or zero
   WitnessFeatures features;                          ///< of the last query, or those given
   bool turns = false;                                ///< the plane holds where it turns with the tool, as it is at the end
+  Scalar slack = std::numeric_limits<Scalar>::infinity();  ///< separation at the end, where that was measured [m]
 };
 
 /// A triangle as the tool passes it.
@@ -164,7 +165,7 @@ Passage<typename Tool::Scalar> pass(const MovingTool<Tool>& moving, const Passed
     const Scalar known = std::max(slack_at(last.normal, start), is_known ? plane.slack : Scalar(0));
     const Scalar required = clearance.required(std::max(known, Scalar(0)));
     const auto held = detail::held_part(moving, corners, last, end, start, required, false);
-    if (!(held.part < Scalar(1))) return {end.time, false, last.normal, warm, held.turns};
+    if (!(held.part < Scalar(1))) return {end.time, false, last.normal, warm, held.turns, last.slack};
   }
   if (!is_known) {
     plane = query(start, true);
@@ -172,7 +173,7 @@ Passage<typename Tool::Scalar> pass(const MovingTool<Tool>& moving, const Passed
     if (touches) last = query(end, true);
   }
   const Scalar required = clearance.required(plane.slack);
-  if (detail::turning_plane_holds(moving, corners, plane, start, last, end, required)) return {end.time, false, last.normal, warm};
+  if (detail::turning_plane_holds(moving, corners, plane, start, last, end, required)) return {end.time, false, last.normal, warm, false, last.slack};
   const Scalar length = moving.length() * end.time;
   const Scalar resolution = triangle.is_exact ? clearance.resolution : std::max(clearance.resolution, length / 16);
   const int maximum_steps = triangle.is_exact ? 24 : 10;
@@ -190,7 +191,7 @@ Passage<typename Tool::Scalar> pass(const MovingTool<Tool>& moving, const Passed
       const MotionFrame<Scalar> near_end = moving.frame_at(frame.time + shorter);
       advance = std::max(advance, shorter * detail::held_part(moving, corners, plane, frame, near_end, required, true).part);
     }
-    if (!(advance < whole)) return {end.time, false, last.normal, warm};
+    if (!(advance < whole)) return {end.time, false, last.normal, warm, false, last.slack};
     const Scalar half = (beyond - frame.time) / 2;
     if (rolls && half > advance && half * moving.length() >= resolution) {
       const MotionFrame<Scalar> middle = moving.frame_at(frame.time + half);
@@ -210,7 +211,7 @@ Passage<typename Tool::Scalar> pass(const MovingTool<Tool>& moving, const Passed
       rolls = triangle.is_exact && 2 * (next.slack - required) > plane.slack - required;
       plane = next;
     }
-    if (detail::turning_plane_holds(moving, corners, plane, frame, last, end, required)) return {end.time, false, last.normal, warm};
+    if (detail::turning_plane_holds(moving, corners, plane, frame, last, end, required)) return {end.time, false, last.normal, warm, false, last.slack};
   }
   return {frame.time, true, plane.normal, warm};
 }

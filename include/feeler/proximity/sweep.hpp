@@ -28,7 +28,6 @@ template <class Scalar>
 struct KnownTriangle {
   int triangle = -1;
   PassedTriangle<Scalar> state;
-  bool is_tight = false;  ///< the tool touches it, without clearance
 };
 
 /// A triangle that blocks a motion, and the time up to which it certainly does not.
@@ -40,6 +39,13 @@ struct Blocker {
   WitnessFeatures features = {};  ///< on which the last query ended
 };
 
+/// A triangle that a sweep was not told of and that is near where the motion ends.
+struct Noticed {
+  int triangle = -1;
+  int piece = 0;  ///< of the tool
+  WitnessFeatures features = {};  ///< on which the last query ended
+};
+
 /// Result of a sweep: the motion is free of collision on [0, time]. That is less than the whole where something blocks, or the work ran low.
 template <class Scalar>
 struct SweepResult {
@@ -47,6 +53,7 @@ struct SweepResult {
 
   Scalar time = Scalar(1);
   FixedVector<Blocker<Scalar>, blocker_capacity> blockers;
+  FixedVector<Noticed, blocker_capacity> noticed;  ///< nearer than `Clearance::noticed` at the end of a motion that nothing blocks; some of them where they are many
   bool is_exhausted = false;  ///< the work limit was reached: nothing is certified, time is 0; the blockers found so far are real
 
   bool is_whole() const noexcept { return blockers.empty() && time >= Scalar(1); }
@@ -81,7 +88,7 @@ class Sweep {
   using Vector = Vector3<Scalar>;
 
   Sweep(PlaneCache<Scalar>& planes, const Clearance<Scalar>& clearance) noexcept
-      : planes_(planes), from_known_(clearance), clearance_(clearance.from_unknown()) {}
+      : planes_(planes), clearance_(clearance) {}
 
   /// @param known   triangles to examine first, exactly; the traversal skips them
   /// @param work    grows by the work done
@@ -98,8 +105,8 @@ class Sweep {
     first_blocked_ = first_blocked;
     begin(mesh, moving, until);
     for (const KnownTriangle<Scalar>& pair : known) {
-      if (passes(pair.state.corners, moving)) continue;
-      examine(pair.triangle, pair.state, from_known_, moving, result, work);
+      if (passes(pair.state.corners, moving, true)) continue;
+      examine(pair.triangle, pair.state, moving, result, work);
       if (work > limit) return give_up(result);
     }
     std::uint64_t marks = 0;  // a bit for every 64th triangle: most are told from the known by it
@@ -107,7 +114,7 @@ class Sweep {
     for (const KnownTriangle<Scalar>& pair : known) marks |= mark_of(pair.triangle);
     const auto is_known = [&](int triangle) { return (marks & mark_of(triangle)) != 0 && is_among(triangle, known); };
     const auto look_at = [&](int triangle, const Matrix3<Scalar>& corners) {
-      examine(triangle, {corners, Vector::Zero(), planes_.features().recall_or_guess(triangle), false}, clearance_, moving, result, work);
+      examine(triangle, {corners, Vector::Zero(), planes_.features().recall_or_guess(triangle), false}, moving, result, work);
       return true;
     };
     int low = limit - (limit - work) / 8;
@@ -135,7 +142,7 @@ class Sweep {
       const auto closest = gjk(moving.tool(), moving.in_tool(corners, start_), {}, clearance_.touching);
       if (closest.is_touching) return false;
       add_plane(start_.rotation * closest.normal, moving);
-      return passes(corners, moving);
+      return passes(corners, moving, false);
     };
     const bool is_done = traverse(mesh, moving, work, [](int) { return false; }, is_parted, [&] { return work <= limit; });
     count_hits();
@@ -164,7 +171,7 @@ class Sweep {
     const auto look_at = [&](int triangle) {
       if (is_known(triangle)) return true;
       const Matrix3<Scalar> corners = mesh.corners(triangle).template cast<Scalar>().colwise() - moving.origin();
-      return passes(corners, moving) || visit(triangle, corners);
+      return passes(corners, moving, false) || visit(triangle, corners);
     };
     const auto plane_count = [this] { return planes_.size(); };
     return visit_unpassed(mesh.bvh(), coarse_, plane_count, Order(moving.motion().linear.template cast<float>()), work, look_at, may_go_on);
@@ -181,18 +188,21 @@ class Sweep {
   }
 
   [[gnu::flatten, gnu::noinline]]
-  void examine(int triangle, const PassedTriangle<Scalar>& state, const Clearance<Scalar>& clearance, const MovingTool<Tool>& moving,
-               SweepResult<Scalar>& result, int& work) noexcept {
-    if (continues_wall(state.corners, moving)) return;
-    const Passage<Scalar> passage = pass(moving, state, start_, end_, clearance, work, first_blocked_);
+  void examine(int triangle, const PassedTriangle<Scalar>& state, const MovingTool<Tool>& moving, SweepResult<Scalar>& result,
+               int& work) noexcept {
+    if (!state.is_exact && is_behind_known(state.corners, moving, work)) return;
+    const Passage<Scalar> passage = pass(moving, state, start_, end_, clearance_, work, first_blocked_);
     if (!passage.is_blocked) {
+      if (!state.is_exact && passage.slack < clearance_.noticed) result.noticed.push_back({triangle, 0, passage.features});
       if (passage.normal.squaredNorm() > Scalar(0) && !state.is_exact) {
         add_plane(passage.normal, moving);
-        if (passage.turns) planes_.with_tool().add(end_.rotation.transpose() * passage.normal, moving, start_, end_, clearance_.kept);
+        if (passage.turns) planes_.with_tool().add(end_.rotation.transpose() * passage.normal, moving, start_, end_, clearance_.kept, clearance_.noticed);
         planes_.features().remember(triangle, passage.features);
       }
       return;
     }
+    // Beside a wall that the tool slides along there may be a way that leads nowhere near it in any other direction.
+    if (state.is_exact && is_behind_known(state.corners, moving, work)) return;
     result.add({triangle, passage.time, 0, passage.features});
     first_blocked_ = std::min(first_blocked_, passage.time);
     result.time = std::min(result.time, passage.time);
@@ -200,21 +210,21 @@ class Sweep {
     if (end < end_.time) set_end(moving, end);
   }
 
-  /// Whether a triangle lies in the plane of a known one that the tool touches without clearance, and slides along: beside it there is a way that
-  /// leads nowhere near it in any other direction.
+  /// Whether a triangle lies in or behind the plane that parts a known one from the tool: then it is no nearer than that one, as seen along the
+  /// normal. Of a wall that is cut into many triangles a few so tell all.
   [[gnu::flatten, gnu::noinline]]
-  bool continues_wall(const Matrix3<Scalar>& corners, const MovingTool<Tool>& moving) noexcept {
+  bool is_behind_known(const Matrix3<Scalar>& corners, const MovingTool<Tool>& moving, int& work) noexcept {
+    constexpr int triangles_per_work = 4;
+    hidden_ = (hidden_ + 1) % triangles_per_work;
+    if (hidden_ == 0) ++work;
+    const Scalar flat = clearance_.noticed / 1000;
     for (const KnownTriangle<Scalar>& wall : known_) {
-      if (!wall.is_tight) continue;
       PlaneOnMotion<Scalar> plane{wall.state.normal};
-      const Scalar height = highest_corner(corners, plane.normal);  // of most, not that of the wall
-      if (!(std::abs(height - highest_corner(wall.state.corners, plane.normal)) < 2 * clearance_.none())) continue;
+      const Scalar height = highest_corner(corners, plane.normal);
+      if (!(height <= highest_corner(wall.state.corners, plane.normal) + flat) || plane.normal.isZero(Scalar(0))) continue;
       plane.begin(moving, start_);
-      if (!(std::abs(plane.start - height) < clearance_.none())) continue;
       plane.end(moving, end_);
-      if (!plane.parts_closely(height, clearance_)) continue;
-      add_plane(plane.normal, moving);
-      return true;
+      if (plane.parts_closely(height, clearance_)) return true;
     }
     return false;
   }
@@ -223,16 +233,17 @@ class Sweep {
   [[gnu::flatten, gnu::noinline]]
   void set_end(const MovingTool<Tool>& moving, Scalar time) noexcept {
     end_ = moving.frame_at(time);
-    planes_.end(moving, end_, clearance_.kept);
-    planes_.with_tool().set_motion(moving, start_, end_, clearance_.kept);
-    for (int k = 0; k < 3; ++k) coarse_.set_sides(k, planes_.box().lower(k) - clearance_.kept, planes_.box().upper(k) + clearance_.kept);
+    planes_.end(moving, end_, clearance_.kept, clearance_.noticed);
+    planes_.with_tool().set_motion(moving, start_, end_, clearance_.kept, clearance_.noticed);
+    const Scalar around = std::max(clearance_.kept, clearance_.noticed);
+    for (int k = 0; k < 3; ++k) coarse_.set_sides(k, planes_.box().lower(k) - around, planes_.box().upper(k) + around);
     for (int i = 0; i < planes_.size(); ++i) coarse_.set_plane(i, planes_.normal(i), planes_.limit(i));
   }
 
   [[gnu::flatten, gnu::noinline]]
   void add_plane(const Vector& normal, const MovingTool<Tool>& moving) noexcept {
     count_hits();
-    const int i = planes_.add(normal, moving, start_, end_, clearance_.kept);
+    const int i = planes_.add(normal, moving, start_, end_, clearance_.kept, clearance_.noticed);
     coarse_.set_plane(i, normal, planes_.limit(i));
   }
 
@@ -241,36 +252,36 @@ class Sweep {
   }
 
   [[gnu::flatten, gnu::noinline]]
-  bool passes(const Matrix3<Scalar>& corners, const MovingTool<Tool>& moving) noexcept {
-    if (last_ < planes_.size() && passes(corners, last_)) return true;
+  bool passes(const Matrix3<Scalar>& corners, const MovingTool<Tool>& moving, bool is_known) noexcept {
+    if (last_ < planes_.size() && passes(corners, last_, is_known)) return true;
     const int turning = planes_.with_tool().parting(corners);
     if (turning >= 0) {
       if (planes_.with_tool().lend(turning)) add_plane(planes_.with_tool().normal_at_end(turning), moving);
       return true;
     }
     for (int i = 0; i < planes_.size(); ++i) {
-      if (i == last_ || !passes(corners, i)) continue;
+      if (i == last_ || !passes(corners, i, is_known)) continue;
       last_ = i;
       return true;
     }
     return false;
   }
 
-  /// Whether one plane passes a triangle.
-  bool passes(const Matrix3<Scalar>& corners, int i) noexcept {
+  /// Whether one plane passes a triangle; one that is known may be nearer than what is noticed.
+  bool passes(const Matrix3<Scalar>& corners, int i, bool is_known) noexcept {
     const Scalar height = highest_corner(corners, planes_.normal(i));
-    if (!(height <= planes_.limit(i) || planes_.parts_closely(i, height, clearance_))) return false;
+    if (!(height <= planes_.limit(i) || ((is_known || !(clearance_.noticed > Scalar(0))) && planes_.parts_closely(i, height, clearance_)))) return false;
     planes_.count_hits(i, 1);
     return true;
   }
 
   PlaneCache<Scalar>& planes_;
-  Clearance<Scalar> from_known_;
-  Clearance<Scalar> clearance_;  // from all others
+  Clearance<Scalar> clearance_;
   std::span<const KnownTriangle<Scalar>> known_;
   Scalar first_blocked_ = std::numeric_limits<Scalar>::infinity();  // time of the first blocker so far
   Frame start_;
   Frame end_;
+  int hidden_ = 0;  // triangles looked at whether a known wall hides them, since the work last grew for it
   int last_ = 0;  // of the planes to pass a triangle: its neighbours come next
   CoarsePlanes<Scalar, PlaneCache<Scalar>::capacity> coarse_;
 };

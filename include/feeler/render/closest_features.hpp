@@ -2,13 +2,10 @@
 #pragma once
 
 #include <algorithm>
-#include <type_traits>
-#include <variant>
 
 #include "feeler/core/status.hpp"
 #include "feeler/render/contact_method.hpp"
 #include "feeler/render/linearisation.hpp"
-#include "feeler/render/lookout.hpp"
 #include "feeler/render/motion_certificate.hpp"
 #include "feeler/render/rendered_scene.hpp"
 #include "feeler/render/step_limits.hpp"
@@ -39,7 +36,7 @@ class ClosestFeaturesFollower {
     pose_ = pose;
     linearisation_.clear();
     certificate_.clear();
-    lookout_ = {};
+
     goes_on_ = takes_first_alone_ = false;
     budget_.reset();
     limits_.reset(scene.trust_radius());
@@ -50,12 +47,13 @@ class ClosestFeaturesFollower {
     turn_idly(scene, tick);
     off_ = off_target(scene, pose_);
     const int idle_legs = tick.path.size();
-    linearisation_.pairs().age(linearisation_.touching(scene), goes_on_);
+    auto& pairs = linearisation_.pairs();
+    const Clearance<Scalar>& clearance = scene.clearance();
+    pairs.age(linearisation_.touching(scene), pairs.has_no_clearance(clearance.none()) ? Scalar(0) : clearance.noticed, goes_on_);
     if (!goes_on_) limits_.reset(scene.trust_radius());
     budget_.begin_tick(scene.settings().work_budget);
     goes_on_ = !advance(scene, tick);
     budget_.end_tick(tick.work, tick.path.size() > idle_legs);
-    if constexpr (looks_around) lookout_.look(scene, pose_, certificate_, linearisation_, tick);
     turn_idly(scene, tick);
     return goes_on_ ? Status::unconverged : Status::converged;
   }
@@ -87,7 +85,7 @@ class ClosestFeaturesFollower {
 
  private:
   static constexpr int maximum_rounds = 4;  // linearisations for one motion
-  static constexpr bool looks_around = CompoundShape<typename Scene::Tool>;
+
 
   /// A step proposed to the certificate.
   struct Proposal {
@@ -154,7 +152,7 @@ class ClosestFeaturesFollower {
       if (length <= resting) return proposal.is_settled && !proposal.is_capped;
       const Pose<Scalar> end = turns.moved(pose_, proposal.motion);
       const Twist<Scalar> off_at_end = off_target(scene, end);
-      const bool is_nearer = descends(scene, off_at_end, proposal.restoration, came_to_nothing);
+      const bool is_nearer = descends(scene, off_at_end, proposal.restoration);
       came_to_nothing = false;
       if (!is_nearer) {
         limits_.narrow(std::min(limits_.trust(), length) / 4);
@@ -165,9 +163,11 @@ class ClosestFeaturesFollower {
       if (result.is_exhausted) {
         takes_first_alone_ = is_first_alone;
         // What was found to block is real, and saves work next time. Late in a tick it was work that lacked, not a shorter motion.
+        linearisation_.notice(scene, result);
         if (!linearisation_.admit(scene, result) && budget_.is_first_iteration()) limits_.shorten(linearisation_.is_empty(), length / 8);
       } else {
-        const bool is_done = result.is_whole() && proposal.is_settled && !proposal.is_capped;
+        const bool is_complete = !result.is_whole() || !linearisation_.notice(scene, result);
+        const bool is_done = result.is_whole() && proposal.is_settled && !proposal.is_capped && is_complete;
         if (result.time > Scalar(0)) {
           if (result.time < Scalar(1)) {
             pose_ = turns.moved(pose_, proposal.motion * result.time);
@@ -197,12 +197,11 @@ class ClosestFeaturesFollower {
 
   Twist<Scalar> off_target(const Scene& scene, const Pose<Scalar>& pose) const noexcept { return scene.idle_turns().motion_between(target_, pose); }
 
-  /// Whether a pose `off` the target is nearer to it than the certified one: `strictly`, or but for what it costs to win the margin back.
-  bool descends(const Scene& scene, const Twist<Scalar>& off, Scalar restoration, bool strictly) const noexcept {
+  /// Whether a pose `off` the target is nearer to it than the certified one, but for what the margin is worth that it wins or has to win yet.
+  bool descends(const Scene& scene, const Twist<Scalar>& off, Scalar restoration) const noexcept {
     using std::sqrt;
     const Scalar before = scene.metric().energy(off_), after = scene.metric().energy(off);
-    if (strictly) return after < before;
-    return after <= before + 2 * restoration + scene.margin() * (sqrt(2 * before) + scene.margin());
+    return after <= before + restoration + scene.margin() * (sqrt(2 * before) + scene.margin());
   }
 
   /// Whether a motion leads nearer to the target by more than a tenth of the margin is worth.
@@ -226,14 +225,13 @@ class ClosestFeaturesFollower {
                                linearise(scene, pose, round == 0, rounds > 1, !rests_on_assumption, tick);
       const Twist<Scalar> off = round == 0 ? off_ : off_target(scene, pose);
       solve(scene, pose, off, proposal.is_capped, tick);
-      if (round == 0) proposal.restoration = problem.cost_of_restoration();
+      if (round == 0) proposal.restoration = std::max(problem.worth_of_margin(), Scalar(0));
       Leg leg = leg_of(scene, pose, solved_step());
       if (round > 0) keep_contacts(scene, pose, off, proposal.is_capped, leg, tick);
       if (previous > very_short(scene) && !proposal.is_capped && reconcile(scene, off, tick)) {
         leg = leg_of(scene, pose, solved_step());
         is_taken_back = is_taken_back || round == 1;
       }
-      linearisation_.note_tight_pairs();
       linearisation_.learn_passed(scene, tick);
       const Scalar last = scene.length_of(leg.step, pose);
       if (round == 0) {
@@ -322,12 +320,12 @@ class ClosestFeaturesFollower {
   }
 
   void project(const Scene& scene, const Twist<Scalar>& off, bool is_capped, Tick<MeshScalar>& tick) noexcept {
-    ++tick.work;
     if (is_capped) {
       linearisation_.problem().restore(scene.metric(), scene.margin());
     } else {
       linearisation_.problem().project(scene.metric(), off, scene.margin());
     }
+    tick.work += problem().solves();
   }
 
   /// Solves with the forces of the last step; false where a projection is to find others.
@@ -335,15 +333,16 @@ class ClosestFeaturesFollower {
     using Guess = typename Linearisation<ToolType, Solver>::Problem::Guess;
     const Guess guess = linearisation_.problem().bend_again(scene.metric(), off, scene.margin());
     if (guess == Guess::none) return false;
-    ++tick.work;
+    tick.work += problem().solves();
     if (guess == Guess::wrong || linearisation_.add_crossed(scene, trusted_step(scene, pose), tick)) return false;
     if (guess == Guess::close) bend(scene, off, tick);
     return true;
   }
 
   void bend(const Scene& scene, const Twist<Scalar>& off, Tick<MeshScalar>& tick) noexcept {
-    if (!problem().is_free()) ++tick.work;
-    linearisation_.problem().bend(scene.metric(), off, scene.margin());
+    if (problem().is_free()) return;
+    linearisation_.problem().bend(scene.metric(), off);
+    tick.work += problem().solves();
   }
 
   /// Solves again with the contacts of the certified pose that the motion would break.
@@ -380,7 +379,7 @@ class ClosestFeaturesFollower {
   StepLimits<Scalar> limits_;
   Linearisation<ToolType, Solver> linearisation_;
   MotionCertificate<ToolType> certificate_;
-  [[no_unique_address]] std::conditional_t<looks_around, Lookout, std::monostate> lookout_;
+
 };
 
 /// The default contact method: constraint planes between the closest features of the tool and the triangles in its way.

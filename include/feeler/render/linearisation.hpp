@@ -38,8 +38,8 @@ class Linearisation {
   using Piece = typename Scene::Piece;
   using Row = ContactRowOf<Piece>;
   static constexpr bool is_convex = maximum_pieces<ToolType> == 1;
-  using Pairs = WorkingSet<Scalar, is_convex ? 48 : 256>;
-  using Problem = StepProblem<Solver, is_convex ? 128 : 256, Row>;
+  using Pairs = WorkingSet<Scalar, 256>;
+  using Problem = StepProblem<Solver, 256, Row>;
 
   void clear() noexcept {
     pairs_.clear();
@@ -161,20 +161,12 @@ class Linearisation {
     return adds;
   }
 
-  /// Remembers which pairs had no room for the margin.
-  void note_tight_pairs() noexcept {
-    for (Pair& pair : pairs_) pair.is_tight = false;
-    for (int k = 0; k < problem_.row_count(); ++k) {
-      if (problem_.is_relaxed(k)) pairs_[pairs_.find(problem_.row(k).piece, problem_.row(k).triangle)].is_tight = true;
-    }
-  }
-
   /// Takes the triangles that the contacts of a solution pass over to into the working set: the row of one they have left hides them.
   void learn_passed(const Scene& scene, Tick<MeshScalar>& tick) noexcept {
     std::optional<Displacement<Scalar>> step;
     for (const auto& active : problem_.solution().active) {
       const Row& row = problem_.row(active.row);
-      if (row.kind != FeaturePair::vertex_face || problem_.is_relaxed(active.row) || pairs_.full()) continue;
+      if (row.kind != FeaturePair::vertex_face || problem_.is_relaxed() || pairs_.full()) continue;
       if (!step) step.emplace(Twist<Scalar>::from_vector(problem_.solution().step));
       const Vector3<Scalar> point = pose_.translation + step->linear + row.carried(*step).arm;
       const int triangle = triangle_under(scene.object(), row.triangle, point);
@@ -187,6 +179,17 @@ class Linearisation {
   void discover(const Scene& scene, const Pose<Scalar>& pose, int piece, int triangle, Tick<MeshScalar>& tick) noexcept {
     if (pairs_.full() || pairs_.find(piece, triangle) >= 0) return;
     take_in_measured(scene, pose, piece, triangle, {}, tick);
+  }
+
+  /// Takes what is near where a motion ended into the working set; false if all of it was there.
+  bool notice(const Scene& scene, const SweepResult<Scalar>& result) noexcept {
+    bool is_new = false;
+    for (const Noticed& noticed : result.noticed) {
+      if (pairs_.find(noticed.piece, noticed.triangle) >= 0) continue;
+      take_in(scene, noticed.piece, noticed.triangle, noticed.features);
+      is_new = true;
+    }
+    return is_new;
   }
 
   /// Takes what blocked a motion into the working set; false when another linearisation would find no more than the last, as all of it was
@@ -338,9 +341,9 @@ class Linearisation {
       const int nearer = patch.nearer_triangle(closest);
       if (nearer >= 0) bring(nearer, pair.features);
     }
-    // Several pieces have many such neighbours at once, and leave them to the certificate.
     const Scalar too_near = scene.margin() - scene.margin() / 1000;  // what rests at the margin is not
-    if (scene.piece_count() == 1 && closest.distance < too_near) {
+    // Without clearance all walls touch, and the certificate tells which of them hold.
+    if (closest.distance < too_near && !pairs_.has_no_clearance(scene.clearance().none())) {
       patch.visit_continuations(too_near, [&](int triangle) { bring(triangle, {}); });
     }
     for (Row& row : patch_rows_) {
@@ -374,7 +377,7 @@ class Linearisation {
   static Scalar certified_gap(const Scene& scene, const Pair& pair) noexcept {
     return pair.slack > scene.clearance().negligible() ? pair.slack : Scalar(0);
   }
-  static Standing standing_of(const Scene& scene, const Pair& pair) noexcept { return {certified_gap(scene, pair), pair.is_tight, pair.is_spare()}; }
+  static Standing standing_of(const Scene& scene, const Pair& pair) noexcept { return {certified_gap(scene, pair), pair.is_spare()}; }
 
   /// Closest points of a pair, as `closest_points_of`, and what is remembered of them.
   static ClosestPoints<Scalar> query(const Scene& scene, Pair& pair, const Matrix3<Scalar>& corners, const Matrix3<Scalar>& axes, bool is_at_start,
@@ -389,7 +392,7 @@ class Linearisation {
   /// A contact so close that any motion may break it is kept; where there is no clearance at all, rounding decides which is.
   void keep_if_touching(const Scene& scene, const Row& row, const Pair& pair) noexcept {
     const bool touches = row.gap > scene.margin() / 1000 && row.gap < touching(scene);
-    if (touches && !pair.is_tight && !row.is_assumed) kept_.add(row, certified_gap(scene, pair));
+    if (touches && !problem_.is_relaxed() && !row.is_assumed) kept_.add(row, certified_gap(scene, pair));
   }
 
   /// @param features  to start its first query from

@@ -55,6 +55,10 @@ class MotionCertificate {
         if (!is_near[std::size_t(piece)]) continue;
         const MovingTool<Piece> moving = scene.moving(piece, from, motion);
         const auto passed = certify_piece(piece, scene, moving, work, limit, pairs, reach, until, first_blocked);
+        for (Noticed noticed : passed.noticed) {
+          noticed.piece = piece;
+          result.noticed.push_back(noticed);
+        }
         for (Blocker<Scalar> blocker : passed.blockers) {
           blocker.piece = piece;
           first_blocked = std::min(first_blocked, blocker.time);
@@ -134,13 +138,14 @@ class MotionCertificate {
       for (int i = 0; i < pairs.size(); ++i) {
         if (pairs[i].piece == piece) clearance.kept = std::min(clearance.kept, clearance.required(pairs[i].slack));
       }
-      clearance.kept_from_unknown = clearance.kept;
     }
+    // Without clearance all walls touch, and the certificate tells which of them hold.
+    if (pairs.has_no_clearance(clearance.none())) clearance.noticed = Scalar(0);
     FixedVector<KnownTriangle<Scalar>, pair_capacity> known;
     for (int i = 0; i < pairs.size(); ++i) {
       const auto& pair = pairs[i];
       if (pair.piece != piece || pair.is_beyond(reach)) continue;
-      known.push_back({pair.triangle, {pair.corners_world.colwise() - moving.origin(), pair.normal, pair.features, true, pair.last_normal}, pair.slack < clearance.none()});
+      known.push_back({pair.triangle, {pair.corners_world.colwise() - moving.origin(), pair.normal, pair.features, true, pair.last_normal}});
     }
     return Sweep<Piece, Order>(planes_[std::size_t(piece)], clearance)
         .certify(scene.object(), moving, {known.begin(), std::size_t(known.size())}, work, limit, until, first_blocked);

@@ -69,7 +69,7 @@ class RenderedScene {
     clearance_.rounding = rounding_of_poses(object.bounds(), surface + reference_.norm());
     margin_ = std::max(Scalar(settings.margin), 10 * clearance_.rounding);
     clearance_.kept = margin_ / 10;
-    clearance_.kept_from_unknown = margin_ / 2;  // or the tool would hop by more when one is found
+    clearance_.noticed = margin_ - margin_ / 1000;  // what rests at the margin is far enough
     clearance_.touching = touching_distance(radius_);
     clearance_.probe = trust_radius() / 4;
   }
@@ -99,7 +99,6 @@ class RenderedScene {
     const Scalar rounding = 8 * std::numeric_limits<Scalar>::epsilon() * (moving.origin().norm() + moving.length());
     Clearance<Scalar> clearance = clearance_;
     clearance.kept = std::max(clearance.kept, rounding);
-    clearance.kept_from_unknown = std::max(clearance.kept_from_unknown, rounding);
     return clearance;
   }
   /// `Settings::margin`, or more where the poses that are returned have not the digits for it [m].

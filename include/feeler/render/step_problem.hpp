@@ -9,6 +9,7 @@
 #include "feeler/core/fixed_vector.hpp"
 #include "feeler/core/scalar.hpp"
 #include "feeler/qp/definiteness.hpp"
+#include "feeler/qp/elastic_rows.hpp"
 #include "feeler/qp/qp_solver.hpp"
 #include "feeler/qp/warm_start.hpp"
 #include "feeler/render/last_forces.hpp"
@@ -16,13 +17,12 @@
 
 namespace feeler {
 
-/// Solves for one step d of the tool: min f(d) subject to gapₖ + Jₖ d ≥ targetₖ.
+/// Solves for one step d of the tool: min f(d) + price · ξ subject to gapₖ + Jₖ d ≥ max(leastₖ, margin − ξ).
 ///
-/// The target is the margin. Rows that together cannot have it (a fit tighter than twice the margin) are asked for less, only those in the
-/// infeasibility certificate: no closer than they were at the last certified pose, of which a fifth of the margin is enough. As
-/// that pose meets them, a step exists. Where there is no clearance at all, rounding decides who has it: there the target is 0. Many rows
-/// ask the same then, and chance would tell which of them hold the tool: those that have not held it lately are asked for a picometre less,
-/// so that it is the same few.
+/// ξ is what is missing of the margin where most is missing (`ElasticRows`), and its price is of the order of the largest contact force: no step goes
+/// away from the hand for more than the margin is worth. `leastₖ` is what the pair has at the last certified pose, of which a fifth of the margin is
+/// enough; as that pose meets it, a step exists. Where there is no clearance at all it is 0. Many rows ask the same then, and chance would tell which
+/// of them hold the tool: those that have not held it lately are asked for a picometre less, so that it is the same few.
 /// @tparam RowType  a `ContactRow`, or one with another curvature
 template <QpSolver Solver, int rows = 128, class RowType = ContactRow<typename Solver::Scalar>>
 class StepProblem {
@@ -35,7 +35,6 @@ class StepProblem {
   /// What is known of the pair that a row is of.
   struct Standing {
     Scalar certified_gap;   ///< separation at the last certified pose, 0 where that is none [m]
-    bool is_tight = false;  ///< it was among those that could not have the margin: relax it with the first that cannot
     bool is_spare = false;  ///< it has not held the tool lately: where there is no clearance others are to hold it
   };
 
@@ -47,7 +46,6 @@ class StepProblem {
   bool add(const Row& row, const Standing& standing) noexcept {
     if (!rows_.push_back(row)) return false;
     standings_[index(rows_.size() - 1)] = standing;
-    is_relaxed_[index(rows_.size() - 1)] = false;
     return true;
   }
   /// Whether a row in the problem asks the same as another.
@@ -74,16 +72,12 @@ class StepProblem {
     ++kept_;
     return true;
   }
-  /// Whether a row of the last solution was asked for less than the margin.
-  bool is_relaxed(int k) const noexcept { return is_relaxed_[index(k)]; }
-  /// Bound on the energy by which the last step had to rise to meet rows that it started short of: Σ multiplier · shortfall.
-  Scalar cost_of_restoration() const noexcept {
-    Scalar cost(0);
-    for (const auto& active : solution_.active) {
-      cost += active.multiplier * std::max(problem_.bounds[index(active.row)], Scalar(0));
-    }
-    return cost;
-  }
+  /// QPs that the last step took.
+  int solves() const noexcept { return solves_; }
+  /// Whether the last solution leaves some of the margin out.
+  bool is_relaxed() const noexcept { return elastic_.relaxation() > Scalar(0); }
+  /// What the margin that the last step wins is worth, to first order [m²].
+  Scalar worth_of_margin() const noexcept { return price_ * (elastic_.relaxation_at_rest() - elastic_.relaxation()); }
   /// Whether an assumed row stopped the last step.
   bool rests_on_assumption() const noexcept {
     return std::any_of(solution_.active.begin(), solution_.active.end(),
@@ -120,18 +114,19 @@ class StepProblem {
       problem_.hessian = metric.homing_hessian(graphic_from_haptic);
     }
     problem_.gradient = metric.gradient(graphic_from_haptic);
-    solve_relaxing(margin);
+    set_price(metric, graphic_from_haptic, margin);
+    solve_elastic();
     is_free_ = solution_.active.empty();
     is_newton_ = true;
     if (is_free_) last_forces_.clear();
     return solution_.step;
   }
   /// After `project`, or a near guess: where contacts hold, the step with the Hessian of the Lagrangian.
-  const Vector6<Scalar>& bend(const Metric<Scalar>& metric, const Twist<Scalar>& graphic_from_haptic, Scalar margin) noexcept {
+  const Vector6<Scalar>& bend(const Metric<Scalar>& metric, const Twist<Scalar>& graphic_from_haptic) noexcept {
     if (is_free_) return solution_.step;
     projection_ = solution_;
     set_lagrangian(metric, graphic_from_haptic);
-    solve_relaxing(margin, WarmStart(projection_));
+    solve_elastic(WarmStart(projection_));
     // Without its rows the curvature they were given means nothing.
     if (solution_.active.empty()) solution_ = projection_;
     remember_forces();
@@ -148,8 +143,10 @@ class StepProblem {
   Guess bend_again(const Metric<Scalar>& metric, const Twist<Scalar>& graphic_from_haptic, Scalar margin) noexcept {
     if (last_forces_.empty() || !last_forces_.find(rows_, projection_.active)) return Guess::none;
     load_rows(margin);
+    set_price(metric, graphic_from_haptic, margin);
     set_lagrangian(metric, graphic_from_haptic);
-    if (solve_from(WarmStart(projection_)) != QpStatus::optimal || solution_.active.empty()) return Guess::wrong;
+    solve_elastic(WarmStart(projection_));
+    if (solution_.active.empty() || is_relaxed()) return Guess::wrong;
     is_free_ = false;
     if (!has_forces_like(projection_)) return Guess::close;
     remember_forces();
@@ -167,7 +164,7 @@ class StepProblem {
     load_rows(margin);
     set_hessian(diagonal_of(metric.diagonal()));
     problem_.gradient.setZero();
-    solve_relaxing(margin);
+    solve_elastic();
     return solution_.step;
   }
 
@@ -186,37 +183,37 @@ class StepProblem {
     return solution_.active.size() == other.active.size() && 8 * change <= largest;
   }
 
-  /// Where rows cannot have the margin only a projection knows which.
+  /// Where rows have given up the margin only a projection knows which.
   void remember_forces() noexcept {
-    const auto is_relaxed_row = [this](const auto& active) { return is_relaxed(active.row); };
-    if (std::any_of(solution_.active.begin(), solution_.active.end(), is_relaxed_row)) last_forces_.clear();
+    if (is_relaxed()) last_forces_.clear();
     else last_forces_.remember(solution_.active, rows_);
   }
 
   void load_rows(Scalar margin) noexcept {
     problem_.clear_rows();
-    for (const Row& row : rows_) problem_.add_row(row.gradient(), margin - row.gap);
-    std::fill_n(is_relaxed_.begin(), rows_.size(), false);
+    elastic_.clear();
+    for (int k = 0; k < rows_.size(); ++k) {
+      const Row& row = rows_[k];
+      const Standing& standing = standings_[index(k)];
+      const bool yields = standing.is_spare && !(standing.certified_gap > Scalar(0));
+      const Scalar soft = margin - row.gap - (yields ? picometre : Scalar(0));
+      problem_.add_row(row.gradient(), soft);
+      elastic_.add(soft, (yields ? -picometre : std::min(standing.certified_gap, margin / 5)) - row.gap);
+    }
+  }
+
+  /// Some times the force with which the hand pulls, as a translation of the tool; with next to no force still enough to win the margin back.
+  void set_price(const Metric<Scalar>& metric, const Twist<Scalar>& graphic_from_haptic, Scalar margin) noexcept {
+    using std::sqrt;
+    price_ = price_per_force * (sqrt(2 * metric.energy(graphic_from_haptic)) + margin);
   }
 
   /// @param start  rows that are likely to be active
-  void solve_relaxing(Scalar margin, const WarmStart& start = {}) noexcept {
-    constexpr int maximum_rounds = 8;
-    for (int round = 0; round <= maximum_rounds; ++round) {
-      const QpStatus status = round == 0 ? solve_from(start) : solver_.solve(problem_, solution_);
-      if (status == QpStatus::optimal) return;
-      bool has_relaxed = false;
-      if (round < maximum_rounds && status == QpStatus::infeasible) {
-        for (const int k : solution_.conflict) has_relaxed = relax(k, margin) || has_relaxed;
-        for (int k = 0; round == 0 && k < problem_.row_count; ++k) {
-          if (standings_[index(k)].is_tight || standings_[index(k)].certified_gap <= Scalar(0)) has_relaxed = relax(k, margin) || has_relaxed;
-        }
-      }
-      if (has_relaxed) continue;
-      for (int k = 0; k < problem_.row_count; ++k) has_relaxed = relax(k, margin) || has_relaxed;
-      if (!has_relaxed) break;
-    }
-    // Even so rounding or curvature may leave a row short by a hair: stay where rows allow it.
+  void solve_elastic(const WarmStart& start = {}) noexcept {
+    solves_ = elastic_.solve(solver_, problem_, price_, picometre, start, solution_);
+    if (solves_ > 0) return;
+    solves_ = 1;
+    // Rounding or curvature may leave a row short of its hard bound by a hair: stay where rows allow it.
     for (int k = 0; k < problem_.row_count; ++k) problem_.bounds[index(k)] = std::min(problem_.bounds[index(k)], Scalar(0));
     if (solver_.solve(problem_, solution_) != QpStatus::optimal) {
       solution_.step.setZero();
@@ -224,26 +221,8 @@ class StepProblem {
     }
   }
 
-  /// A solver that knows no warm start does without.
-  QpStatus solve_from(const WarmStart& start) noexcept {
-    if constexpr (requires { solver_.solve(problem_, start, solution_); }) {
-      return solver_.solve(problem_, start, solution_);
-    } else {
-      return solver_.solve(problem_, solution_);
-    }
-  }
-
+  static constexpr Scalar price_per_force = Scalar(8);
   static constexpr Scalar picometre = Scalar(1e-12);  // some tolerances of a solver
-
-  bool relax(int k, Scalar margin) noexcept {
-    if (is_relaxed_[index(k)]) return false;
-    is_relaxed_[index(k)] = true;
-    const Standing& standing = standings_[index(k)];
-    const Scalar enough = margin / 5, least = standing.is_spare ? -picometre : Scalar(0);
-    const Scalar target = standing.certified_gap > Scalar(0) ? std::min(standing.certified_gap, enough) : least;
-    problem_.bounds[index(k)] = std::min(problem_.bounds[index(k)], target - rows_[k].gap);
-    return true;
-  }
 
   /// H = ∇²f − Σ λₖ ∇²sₖ with the forces of the projection, made positive definite where it matters least.
   ///
@@ -329,7 +308,9 @@ class StepProblem {
   FixedVector<Row, row_capacity> rows_;
   int kept_ = 0;  // of them, at the end
   std::array<Standing, std::size_t(row_capacity)> standings_;
-  std::array<bool, std::size_t(row_capacity)> is_relaxed_;
+  ElasticRows<Scalar, row_capacity> elastic_;
+  Scalar price_ = Scalar(0);  // of the margin, in the unit of multipliers
+  int solves_ = 0;
 };
 
 }  // namespace feeler

@@ -1,0 +1,159 @@
+// Rows that may all be relaxed by the same amount, at a price: the elastic mode of the textbooks, solved with any QP solver.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <limits>
+
+#include <Eigen/Cholesky>
+#include <Eigen/QR>
+
+#include "feeler/core/scalar.hpp"
+#include "feeler/qp/problem.hpp"
+#include "feeler/qp/qp_solver.hpp"
+#include "feeler/qp/warm_start.hpp"
+
+namespace feeler {
+
+/// Solves  min ½ dᵀ H d + gᵀ d + c ξ  subject to  aₖᵀ d ≥ max(hardₖ, softₖ − ξ),  ξ ≥ 0.
+///
+/// The penalty of the largest violation with price c (J. Nocedal, S. Wright, "Numerical Optimization", 2nd ed., section 17.2): exact as long as the
+/// multipliers of soft rows add up to no more than c. As it counts the largest violation, rows that repeat others change nothing.
+///
+/// The relaxation ξ grows from 0 to the least that will do. A QP without a solution names rows that contradict each other: Σ yₖ aₖ = 0 with y ≥ 0, so
+/// Σ yₖ boundₖ ≤ 0 must hold, which tells how much ξ must be. Where multipliers add up to more than c, they fall by 1ᵀ(A H⁻¹ Aᵀ)⁻¹ 1 for each unit of ξ, until
+/// other rows are active.
+template <RealScalar ScalarType, int row_capacity>
+class ElasticRows {
+ public:
+  using Scalar = ScalarType;
+
+  void clear() noexcept { size_ = 0; }
+  /// Appends the bounds of the next row of a problem.
+  void add(Scalar soft, Scalar hard) noexcept { rows_[index(size_++)] = {soft, std::min(hard, soft)}; }
+
+  int size() const noexcept { return size_; }
+  /// ξ of the last solution [m].
+  Scalar relaxation() const noexcept { return relaxation_; }
+  /// The relaxation that a step of zero needs [m].
+  Scalar relaxation_at_rest() const noexcept {
+    Scalar most(0);
+    for (int k = 0; k < size_; ++k) most = std::max(most, rows_[index(k)].soft);
+    return most;
+  }
+
+  /// @param problem  its Hessian, gradient and rows are given; its bounds become those that hold
+  /// @param price    c
+  /// @param least    smallest change of ξ worth a QP: some tolerances of the solver [m]
+  /// @param start    rows that are likely to be active
+  /// @return  QPs solved, or 0 where not even the hard bounds have a solution, to the solver's tolerance
+  /// @cost    noexcept, no allocation; one QP where nothing is to be relaxed, `maximum_solves` at most
+  template <QpSolver Solver>
+  int solve(Solver& solver, QpProblem<Scalar>& problem, Scalar price, Scalar least, const WarmStart& start, QpSolution<Scalar>& solution) noexcept {
+    const Scalar most = relaxation_at_rest();
+    Scalar low(0), high = most;  // the relaxation lies between
+    bool is_least = true;        // with less than the one at hand there is no solution
+    relaxation_ = Scalar(0);
+    for (int solves = 1; solves <= maximum_solves; ++solves) {
+      if (solves == maximum_solves) relaxation_ = high;
+      load(problem);
+      const QpStatus status = solves == 1 ? solve_from(solver, problem, start, solution) : solver.solve(problem, solution);
+      if (status == QpStatus::infeasible && relaxation_ < high) {
+        low = relaxation_;
+        relaxation_ = std::min(low + std::max(lack(problem, solution), least), high);
+        is_least = true;
+        continue;
+      }
+      if (status != QpStatus::optimal) return 0;
+      const Scalar sum = sum_of_soft(solution);
+      if (sum <= price) {
+        const bool is_close = sum >= price - price / 1000 || !(relaxation_ - low > least);
+        if (is_least || is_close || solves == maximum_solves) return solves;
+        high = relaxation_;
+      } else {
+        if (!(relaxation_ < high)) return solves;
+        low = relaxation_;
+      }
+      // Where the same rows stay active the next sum is the price; else in the middle of what is known.
+      is_least = false;
+      const Scalar next = sum > price ? low + std::max((sum - price) / fall_of_sum(problem, solution), least) : high;
+      relaxation_ = next < high ? next : (low + high) / 2;
+    }
+    return 0;
+  }
+
+ private:
+  static constexpr int maximum_solves = 16;
+  static constexpr int most_rows = QpSolution<Scalar>::active_capacity;
+  using Columns = Eigen::Matrix<Scalar, 6, Eigen::Dynamic, 0, 6, most_rows>;
+  using Weights = Eigen::Matrix<Scalar, Eigen::Dynamic, 1, 0, most_rows, 1>;
+
+  struct Row {
+    Scalar soft, hard;
+  };
+
+  static std::size_t index(int k) noexcept { return std::size_t(k); }
+
+  /// A solver that knows no warm start does without.
+  template <QpSolver Solver>
+  static QpStatus solve_from(Solver& solver, const QpProblem<Scalar>& problem, const WarmStart& start, QpSolution<Scalar>& solution) noexcept {
+    if constexpr (requires { solver.solve(problem, start, solution); }) {
+      return solver.solve(problem, start, solution);
+    } else {
+      return solver.solve(problem, solution);
+    }
+  }
+
+  bool is_soft(int k) const noexcept { return rows_[index(k)].soft - relaxation_ > rows_[index(k)].hard; }
+  void load(QpProblem<Scalar>& problem) const noexcept {
+    for (int k = 0; k < size_; ++k) problem.bounds[index(k)] = std::max(rows_[index(k)].hard, rows_[index(k)].soft - relaxation_);
+  }
+
+  /// By how much more rows that contradict each other must be relaxed.
+  Scalar lack(const QpProblem<Scalar>& problem, const QpSolution<Scalar>& solution) const noexcept {
+    const auto& rows = solution.conflict;
+    const int last = rows.size() - 1;
+    if (last < 1) return Scalar(0);
+    Columns others(6, last);
+    for (int i = 0; i < last; ++i) others.col(i) = problem.rows[index(rows[i])];
+    const Weights y = others.colPivHouseholderQr().solve(-problem.rows[index(rows[last])]);
+    Scalar bound = problem.bounds[index(rows[last])], soft = is_soft(rows[last]) ? Scalar(1) : Scalar(0);
+    for (int i = 0; i < last; ++i) {
+      const Scalar weight = std::max(y[i], Scalar(0));
+      bound += weight * problem.bounds[index(rows[i])];
+      if (is_soft(rows[i])) soft += weight;
+    }
+    return soft > Scalar(0) ? bound / soft : Scalar(0);
+  }
+
+  Scalar sum_of_soft(const QpSolution<Scalar>& solution) const noexcept {
+    Scalar sum(0);
+    for (const auto& active : solution.active) {
+      if (is_soft(active.row)) sum += active.multiplier;
+    }
+    return sum;
+  }
+
+  /// By how much the multipliers of soft rows fall for each unit of ξ, as long as the same rows are active; positive.
+  Scalar fall_of_sum(const QpProblem<Scalar>& problem, const QpSolution<Scalar>& solution) const noexcept {
+    const int count = solution.active.size();
+    Columns rows(6, count);
+    Weights soft(count);
+    for (int i = 0; i < count; ++i) {
+      rows.col(i) = problem.rows[index(solution.active[i].row)];
+      soft[i] = is_soft(solution.active[i].row) ? Scalar(1) : Scalar(0);
+    }
+    const Eigen::LLT<Matrix6<Scalar>> factor(problem.hessian);
+    const Columns whitened = factor.matrixL().solve(rows);
+    const Eigen::Matrix<Scalar, Eigen::Dynamic, Eigen::Dynamic, 0, most_rows, most_rows> delassus = whitened.transpose() * whitened;
+    const Weights change = delassus.colPivHouseholderQr().solve(soft);
+    return std::max(soft.dot(change), std::numeric_limits<Scalar>::epsilon());
+  }
+
+  int size_ = 0;
+  Scalar relaxation_ = Scalar(0);
+  std::array<Row, std::size_t(row_capacity)> rows_;
+};
+
+}  // namespace feeler
