@@ -5,6 +5,7 @@
 #include <array>
 #include <cstddef>
 #include <limits>
+#include <utility>
 
 #include <Eigen/Cholesky>
 #include <Eigen/QR>
@@ -16,10 +17,12 @@
 
 namespace feeler {
 
-/// Solves  min ½ dᵀ H d + gᵀ d + c ξ  subject to  aₖᵀ d ≥ max(hardₖ, softₖ − ξ),  ξ ≥ 0.
+/// Solves  min ½ dᵀ H d + gᵀ d + c ξ  subject to  aₖᵀ d ≥ max(hardₖ, softₖ − ξ) for rows in conflict, aₖᵀ d ≥ softₖ for all others,  ξ ≥ 0.
 ///
 /// The penalty of the largest violation with price c (J. Nocedal, S. Wright, "Numerical Optimization", 2nd ed., section 17.2): exact as long as the
-/// multipliers of soft rows add up to no more than c. As it counts the largest violation, rows that repeat others change nothing.
+/// multipliers of soft rows add up to no more than c. As it counts the largest violation, rows that repeat others change nothing. Rows are in
+/// conflict where a certificate of infeasibility names them, or one that is parallel, where a step of zero leaves them short by a hundredth of the most
+/// that is missing, or where their multipliers cost more than c; all others keep their soft bound.
 ///
 /// The relaxation ξ grows from 0 to the least that will do. A QP without a solution names rows that contradict each other: Σ yₖ aₖ = 0 with y ≥ 0, so
 /// Σ yₖ boundₖ ≤ 0 must hold, which tells how much ξ must be. Where multipliers add up to more than c, they fall by 1ᵀ(A H⁻¹ Aᵀ)⁻¹ 1 for each unit of ξ, until
@@ -31,11 +34,13 @@ class ElasticRows {
 
   void clear() noexcept { size_ = 0; }
   /// Appends the bounds of the next row of a problem.
-  void add(Scalar soft, Scalar hard) noexcept { rows_[index(size_++)] = {soft, std::min(hard, soft)}; }
+  void add(Scalar soft, Scalar hard) noexcept { rows_[index(size_++)] = {soft, std::min(hard, soft), false}; }
 
   int size() const noexcept { return size_; }
   /// ξ of the last solution [m].
   Scalar relaxation() const noexcept { return relaxation_; }
+  /// Whether a row of the last solution is in conflict.
+  bool is_relaxed(int k) const noexcept { return rows_[index(k)].is_relaxed; }
   /// The relaxation that a step of zero needs [m].
   Scalar relaxation_at_rest() const noexcept {
     Scalar most(0);
@@ -56,22 +61,35 @@ class ElasticRows {
     bool is_least = true;        // with less than the one at hand there is no solution
     relaxation_ = Scalar(0);
     for (int solves = 1; solves <= maximum_solves; ++solves) {
-      if (solves == maximum_solves) relaxation_ = high;
+      if (solves == maximum_solves) {
+        relaxation_ = high;
+        for (int k = 0; k < size_; ++k) rows_[index(k)].is_relaxed = true;
+      }
       load(problem);
       const QpStatus status = solves == 1 ? solve_from(solver, problem, start, solution) : solver.solve(problem, solution);
-      if (status == QpStatus::infeasible && relaxation_ < high) {
+      if (status == QpStatus::infeasible && solves < maximum_solves) {
+        const bool joins = relax_like(problem, solution.conflict);
+        if (joins) begin_again(low, high, most);
+        if (!joins && !(relaxation_ < high)) return 0;
         low = relaxation_;
-        relaxation_ = std::min(low + std::max(lack(problem, solution), least), high);
+        relaxation_ = std::min(low + std::max(lack(problem, solution), joins ? Scalar(0) : least), high);
         is_least = true;
         continue;
       }
       if (status != QpStatus::optimal) return 0;
       const Scalar sum = sum_of_soft(solution);
       if (sum <= price) {
-        const bool is_close = sum >= price - price / 1000 || !(relaxation_ - low > least);
+        const bool is_close = sum >= price - price / 1000 || !(relaxation_ - low > std::max(least, most / 1000));
         if (is_least || is_close || solves == maximum_solves) return solves;
         high = relaxation_;
       } else {
+        bool joins = false;
+        for (const auto& active : solution.active) joins = relax(active.row) || joins;
+        if (joins) {
+          begin_again(low, high, most);
+          is_least = true;
+          continue;
+        }
         if (!(relaxation_ < high)) return solves;
         low = relaxation_;
       }
@@ -84,13 +102,14 @@ class ElasticRows {
   }
 
  private:
-  static constexpr int maximum_solves = 16;
+  static constexpr int maximum_solves = 24;
   static constexpr int most_rows = QpSolution<Scalar>::active_capacity;
   using Columns = Eigen::Matrix<Scalar, 6, Eigen::Dynamic, 0, 6, most_rows>;
   using Weights = Eigen::Matrix<Scalar, Eigen::Dynamic, 1, 0, most_rows, 1>;
 
   struct Row {
     Scalar soft, hard;
+    bool is_relaxed;
   };
 
   static std::size_t index(int k) noexcept { return std::size_t(k); }
@@ -105,9 +124,37 @@ class ElasticRows {
     }
   }
 
-  bool is_soft(int k) const noexcept { return rows_[index(k)].soft - relaxation_ > rows_[index(k)].hard; }
+  Scalar bound(int k) const noexcept {
+    const Row& row = rows_[index(k)];
+    return row.is_relaxed ? std::max(row.hard, row.soft - relaxation_) : row.soft;
+  }
+  bool is_soft(int k) const noexcept { return bound(k) > rows_[index(k)].hard; }
   void load(QpProblem<Scalar>& problem) const noexcept {
-    for (int k = 0; k < size_; ++k) problem.bounds[index(k)] = std::max(rows_[index(k)].hard, rows_[index(k)].soft - relaxation_);
+    for (int k = 0; k < size_; ++k) problem.bounds[index(k)] = bound(k);
+  }
+  /// More rows are relaxed: less may do.
+  void begin_again(Scalar& low, Scalar& high, Scalar most) noexcept {
+    relaxation_ = low = Scalar(0);
+    high = most;
+  }
+  bool relax(int k) noexcept { return !std::exchange(rows_[index(k)].is_relaxed, true); }
+  /// Relaxes rows, those that are parallel to one of them, and those that a step of zero leaves short.
+  template <class List>
+  bool relax_like(const QpProblem<Scalar>& problem, const List& list) noexcept {
+    constexpr Scalar parallel = Scalar(1) - Scalar(1e-6);
+    const Scalar missing = relaxation_at_rest() / 100;
+    bool joins = false;
+    for (int k = 0; k < size_; ++k) {
+      if (rows_[index(k)].soft > missing) joins = relax(k) || joins;
+    }
+    for (const int i : list) {
+      const Vector3<Scalar> direction = problem.rows[index(i)].template head<3>();
+      for (int k = 0; k < size_; ++k) {
+        if (rows_[index(k)].is_relaxed || !(problem.rows[index(k)].template head<3>().dot(direction) > parallel * direction.squaredNorm())) continue;
+        joins = relax(k) || joins;
+      }
+    }
+    return joins;
   }
 
   /// By how much more rows that contradict each other must be relaxed.
@@ -118,13 +165,13 @@ class ElasticRows {
     Columns others(6, last);
     for (int i = 0; i < last; ++i) others.col(i) = problem.rows[index(rows[i])];
     const Weights y = others.colPivHouseholderQr().solve(-problem.rows[index(rows[last])]);
-    Scalar bound = problem.bounds[index(rows[last])], soft = is_soft(rows[last]) ? Scalar(1) : Scalar(0);
+    Scalar lacking = bound(rows[last]), soft = is_soft(rows[last]) ? Scalar(1) : Scalar(0);
     for (int i = 0; i < last; ++i) {
       const Scalar weight = std::max(y[i], Scalar(0));
-      bound += weight * problem.bounds[index(rows[i])];
+      lacking += weight * bound(rows[i]);
       if (is_soft(rows[i])) soft += weight;
     }
-    return soft > Scalar(0) ? bound / soft : Scalar(0);
+    return soft > Scalar(0) ? lacking / soft : Scalar(0);
   }
 
   Scalar sum_of_soft(const QpSolution<Scalar>& solution) const noexcept {

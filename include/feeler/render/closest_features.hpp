@@ -86,7 +86,6 @@ class ClosestFeaturesFollower {
  private:
   static constexpr int maximum_rounds = 4;  // linearisations for one motion
 
-
   /// A step proposed to the certificate.
   struct Proposal {
     Twist<Scalar> motion;        // from the certified pose

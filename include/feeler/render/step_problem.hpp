@@ -221,7 +221,7 @@ class StepProblem {
     }
   }
 
-  static constexpr Scalar price_per_force = Scalar(8);
+  static constexpr Scalar price_per_force = Scalar(24);
   static constexpr Scalar picometre = Scalar(1e-12);  // some tolerances of a solver
 
   /// H = ∇²f − Σ λₖ ∇²sₖ with the forces of the projection, made positive definite where it matters least.
