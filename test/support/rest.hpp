@@ -13,6 +13,7 @@ namespace feeler::test {
 /// How long a scene's hand goes on, and for how long a copy of it is held at every fiftieth tick.
 struct Holding {
   int ticks, held_ticks;
+  int latest = 60;  // tick after which nothing changes any more
 };
 
 /// Holds the device at every fiftieth tick of the scene's hand: 60 ticks later neither tool nor wrench changes any more.
@@ -35,10 +36,10 @@ void check_rest(const scenes::Setting& scene, const Tool& tool, const std::strin
       last = tick;
     }
     ++held_times;
-    moving += rest > 60;
+    moving += rest > holding.latest;
     latest = std::max(latest, rest);
   }
-  BOOST_TEST_MESSAGE(name << ": held " << held_times << " times, at rest after at most " << latest << " ticks, not at rest after 60: " << moving);
+  BOOST_TEST_MESSAGE(name << ": held " << held_times << " times, at rest after at most " << latest << " ticks, not at rest after " << holding.latest << ": " << moving);
   BOOST_TEST_CONTEXT(name) BOOST_TEST(moving == 0);
 }
 

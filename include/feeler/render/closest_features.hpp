@@ -76,7 +76,7 @@ class ClosestFeaturesFollower {
         if (row.kind != FeaturePair::face_vertex) point -= swept_radius(scene.piece(row.piece)) * row.normal;
       }
       contact.point_world = point.template cast<MeshScalar>();
-      contact.normal_world = row.normal.template cast<MeshScalar>();
+      contact.normal_world = row.normal.normalized().template cast<MeshScalar>();  // one that was carried far has lost a bit
       contact.gap = MeshScalar(problem().gap_after(active.row));
       contact.force = MeshScalar(active.multiplier * unit);
       tick.contacts.push_back(contact);
