@@ -57,7 +57,7 @@ BOOST_AUTO_TEST_CASE(a_box_over_a_triangle_of_kilometres_is_as_far_away_as_it_is
         Eigen::Matrix3d triangle;
         triangle << -size, size, size, -size, -size, size, 0, 0, 0;
         triangle.colwise() -= Vector(beside, 0, 0.01 + gap);
-        const auto closest = gjk(tool, triangle, {}, 1e-8);
+        const auto closest = feeler::gjk(tool, triangle, {}, 1e-8);
         BOOST_TEST_CONTEXT("size " << size << " gap " << gap << " beside " << beside) {
           BOOST_TEST(std::abs(closest.distance - gap) < 1e-12);
           BOOST_TEST((closest.normal - Vector::UnitZ()).norm() < 1e-12);
