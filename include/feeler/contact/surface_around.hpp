@@ -74,32 +74,12 @@ class SurfaceAround {
   /// Whether a point that may lie beside the triangle is over the flat part of the surface that it belongs to; past its rim nothing holds.
   /// @param corner  the triangle's first [m]
   [[gnu::flatten, gnu::noinline]]
-  bool is_under(const Vector& point, const Vector& corner) const noexcept {
-    constexpr int longest_walk = 16;
-    const Vector origin = mesh_.vertex(mesh_.triangle(triangle_)[0]).template cast<Scalar>();
-    const Vector point_world = world_from_tool_ * (point - corner) + origin;
-    int triangle = triangle_;
-    for (int step = 0; step < longest_walk; ++step) {
-      const int edge = edge_towards(mesh_, triangle, point_world, seam_);
-      if (edge < 0) return true;
-      if (mesh_.topology().edge_convexity(triangle, edge) != Convexity::flat) return false;
-      triangle = mesh_.topology().neighbour(triangle, edge);
-    }
-    return true;
-  }
+  bool is_under(const Vector& point, const Vector& corner) const noexcept { return !walk_towards(point, corner).ends_at_rim; }
 
   /// The other triangle that a point is over, or the one where the walk to it over the flat part of the surface ends; -1 if that ends at once.
   /// @param corner  the triangle's first [m]
   int triangle_under(const Vector& point, const Vector& corner) const noexcept {
-    constexpr int longest_walk = 16;
-    const Vector origin = mesh_.vertex(mesh_.triangle(triangle_)[0]).template cast<Scalar>();
-    const Vector point_world = world_from_tool_ * (point - corner) + origin;
-    int triangle = triangle_;
-    for (int step = 0; step < longest_walk; ++step) {
-      const int edge = edge_towards(mesh_, triangle, point_world, seam_);
-      if (edge < 0 || mesh_.topology().edge_convexity(triangle, edge) != Convexity::flat) break;
-      triangle = mesh_.topology().neighbour(triangle, edge);
-    }
+    const int triangle = walk_towards(point, corner).triangle;
     return triangle != triangle_ ? triangle : -1;
   }
 
@@ -140,6 +120,26 @@ class SurfaceAround {
   }
 
  private:
+  struct Walk {
+    int triangle;
+    bool ends_at_rim;  // of the flat part, before the point is reached
+  };
+
+  /// Over the flat part of the surface from the triangle to a point.
+  Walk walk_towards(const Vector& point, const Vector& corner) const noexcept {
+    constexpr int longest_walk = 16;
+    const Vector origin = mesh_.vertex(mesh_.triangle(triangle_)[0]).template cast<Scalar>();
+    const Vector point_world = world_from_tool_ * (point - corner) + origin;
+    int triangle = triangle_;
+    for (int step = 0; step < longest_walk; ++step) {
+      const int edge = edge_towards(mesh_, triangle, point_world, seam_);
+      if (edge < 0) break;
+      if (mesh_.topology().edge_convexity(triangle, edge) != Convexity::flat) return {triangle, true};
+      triangle = mesh_.topology().neighbour(triangle, edge);
+    }
+    return {triangle, false};
+  }
+
   Vector3<MeshScalar> direction_of(const Vector& normal) const noexcept { return (world_from_tool_ * normal).template cast<MeshScalar>(); }
 
   const TriangleMesh<MeshScalar>& mesh_;

@@ -378,7 +378,6 @@ class ClosestFeaturesFollower {
   StepLimits<Scalar> limits_;
   Linearisation<ToolType, Solver> linearisation_;
   MotionCertificate<ToolType> certificate_;
-
 };
 
 /// The default contact method: constraint planes between the closest features of the tool and the triangles in its way.

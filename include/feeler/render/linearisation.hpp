@@ -175,12 +175,6 @@ class Linearisation {
     }
   }
 
-  /// Takes in a pair that is near at a certified pose, though it blocked no motion.
-  void discover(const Scene& scene, const Pose<Scalar>& pose, int piece, int triangle, Tick<MeshScalar>& tick) noexcept {
-    if (pairs_.full() || pairs_.find(piece, triangle) >= 0) return;
-    take_in_measured(scene, pose, piece, triangle, {}, tick);
-  }
-
   /// Takes what is near where a motion ended into the working set; false if all of it was there.
   bool notice(const Scene& scene, const SweepResult<Scalar>& result) noexcept {
     bool is_new = false;
