@@ -1,7 +1,6 @@
 // The few pairs of tool piece and triangle that hold the tool or lately did, from tick to tick.
 #pragma once
 
-#include <algorithm>
 
 #include "feeler/core/fixed_vector.hpp"
 #include "feeler/core/scalar.hpp"
@@ -71,7 +70,10 @@ class WorkingSet {
   bool full() const noexcept { return pairs_.full(); }
   /// Whether a pair touches, with a separation below `none` [m]: without clearance all walls do.
   bool has_no_clearance(Scalar none) const noexcept {
-    return std::any_of(pairs_.begin(), pairs_.end(), [none](const Pair& pair) { return pair.slack < none; });
+    for (const Pair& pair : pairs_) {
+      if (pair.slack < none) return true;
+    }
+    return false;
   }
   void clear() noexcept { pairs_.clear(); }
 
