@@ -42,9 +42,9 @@ FixedVector<PartCorner<typename Tool::Scalar>, 9> near_part(const Tool& tool, co
         if ((from > Scalar(0)) == (to > Scalar(0))) continue;
         // From the end that is nearer to the cut, so that the new corner is no less exact than that.
         const bool is_first_nearer = from * from < to * to;
-        const PartCorner<Scalar>&near = is_first_nearer ? a : b, &far = is_first_nearer ? b : a;
+        const PartCorner<Scalar>&inner = is_first_nearer ? a : b, &outer = is_first_nearer ? b : a;
         const Scalar share = (is_first_nearer ? from : to) / (is_first_nearer ? from - to : to - from);
-        PartCorner<Scalar> corner{near.point + share * (far.point - near.point), a.corners | b.corners};
+        PartCorner<Scalar> corner{inner.point + share * (outer.point - inner.point), a.corners | b.corners};
         corner.point[axis] = sign * limit;
         cut.push_back(corner);
       }
