@@ -217,11 +217,11 @@ class ClosestFeaturesFollower {
     auto& problem = linearisation_.problem();
     Proposal proposal;
     Pose<Scalar> pose = pose_;
-    bool rests_on_assumption = false, is_taken_back = false;
+    bool assumes_valleys = true, is_taken_back = false;
     Scalar first(0), previous(0);
     for (int round = 0; round < rounds && !budget_.ends_motion(tick.work, round); ++round) {
       const bool is_measured = !(proposal.is_capped && linearisation_.carry_to(scene, pose, tick)) &&
-                               linearise(scene, pose, round == 0, rounds > 1, !rests_on_assumption, tick);
+                               linearise(scene, pose, round == 0, rounds > 1, assumes_valleys, tick);
       const Twist<Scalar> off = round == 0 ? off_ : off_target(scene, pose);
       solve(scene, pose, off, proposal.is_capped, tick);
       if (round == 0) proposal.restoration = std::max(problem.worth_of_margin(), Scalar(0));
@@ -257,7 +257,8 @@ class ClosestFeaturesFollower {
         proposal.motion = proposal.motion * (longest / length);
         return proposal;
       }
-      rests_on_assumption = problem.rests_on_assumption();
+      const bool rests_on_assumption = problem.rests_on_assumption();
+      assumes_valleys = assumes_valleys && !rests_on_assumption;  // with it again, two linearisations would take turns
       // A short step is the last one where steps shrink fast, and go on to, or where it is very short.
       const bool shrinks_fast = problem.is_newton() && last < previous / 10;
       const bool is_short = last < Scalar(scene.settings().step_tolerance) && (shrinks_fast || last < very_short(scene));
