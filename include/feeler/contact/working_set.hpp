@@ -1,7 +1,6 @@
 // The few pairs of tool piece and triangle that hold the tool or lately did, from tick to tick.
 #pragma once
 
-
 #include "feeler/core/fixed_vector.hpp"
 #include "feeler/core/scalar.hpp"
 #include "feeler/proximity/gjk.hpp"

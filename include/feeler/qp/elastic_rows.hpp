@@ -36,7 +36,6 @@ class ElasticRows {
   /// Appends the bounds of the next row of a problem.
   void add(Scalar soft, Scalar hard) noexcept { rows_[index(size_++)] = {soft, std::min(hard, soft), false}; }
 
-  int size() const noexcept { return size_; }
   /// ξ of the last solution [m].
   Scalar relaxation() const noexcept { return relaxation_; }
   /// Whether a row of the last solution is in conflict.

@@ -36,7 +36,6 @@ class ClosestFeaturesFollower {
     pose_ = pose;
     linearisation_.clear();
     certificate_.clear();
-
     goes_on_ = takes_first_alone_ = false;
     budget_.reset();
     limits_.reset(scene.trust_radius());

@@ -335,7 +335,7 @@ class Linearisation {
       const int nearer = patch.nearer_triangle(closest);
       if (nearer >= 0) bring(nearer, pair.features);
     }
-    const Scalar too_near = scene.margin() - scene.margin() / 1000;  // what rests at the margin is not
+    const Scalar too_near = scene.clearance().noticed;
     // Without clearance all walls touch, and the certificate tells which of them hold.
     if (closest.distance < too_near && !pairs_.has_no_clearance(scene.clearance().none())) {
       patch.visit_continuations(too_near, [&](int triangle) { bring(triangle, {}); });
@@ -397,13 +397,9 @@ class Linearisation {
   }
   /// The same on the way of a motion, with the plane that the pair had where that starts.
   Pair& take_in_as_at_start(const Scene& scene, int piece, int triangle, WitnessFeatures features, Tick<MeshScalar>& tick) noexcept {
-    return take_in_measured(scene, start_, piece, triangle, features, tick);
-  }
-  /// The same with the plane that the pair has at a certified pose.
-  Pair& take_in_measured(const Scene& scene, const Pose<Scalar>& pose, int piece, int triangle, WitnessFeatures features, Tick<MeshScalar>& tick) noexcept {
     Pair& pair = take_in(scene, piece, triangle, features);
-    const Matrix3<Scalar> axes = pose.rotation.toRotationMatrix();
-    query(scene, pair, scene.in_tool(pair.corners_world, pose, axes), axes, true, tick);
+    const Matrix3<Scalar> axes = start_.rotation.toRotationMatrix();
+    query(scene, pair, scene.in_tool(pair.corners_world, start_, axes), axes, true, tick);
     return pair;
   }
 
