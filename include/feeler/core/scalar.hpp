@@ -6,6 +6,8 @@
 
 #include <Eigen/Core>
 
+#include "feeler/core/no_fast_math.hpp"
+
 namespace feeler {
 
 /// A real number: built-in floating point, or a type that behaves like one and has an `Eigen::NumTraits`.

@@ -3,6 +3,8 @@
 
 #include <cstdint>
 
+#include "feeler/core/no_fast_math.hpp"
+
 namespace feeler {
 
 /// Pose of the handle in the device's base frame. Plain numbers, because the size of an Eigen type changes with compiler flags.

@@ -1,6 +1,8 @@
 // From the rotation matrix that a device reports, which is only nearly one, to a unit quaternion.
 #pragma once
 
+#include "feeler/core/no_fast_math.hpp"
+
 namespace feeler {
 
 /// The unit quaternion of the rotation nearest to a matrix (in the Frobenius norm).

@@ -1,0 +1,18 @@
+# Headers refuse to be compiled with arithmetic that has no NaN, unless the risk is taken. Preprocessing tells.
+set(flags -ffast-math -Ofast -ffinite-math-only)
+if(COMPILER_ID STREQUAL GNU)  # others do not tell
+  list(APPEND flags -funsafe-math-optimizations)
+endif()
+separate_arguments(command NATIVE_COMMAND "${COMPILER} -std=c++20 -E ${INCLUDES}")
+foreach(header IN LISTS HEADERS)
+  file(WRITE ${SOURCE} "#include <${header}>\n")
+  foreach(flag "" ${flags})
+    execute_process(COMMAND ${command} ${flag} ${SOURCE} OUTPUT_QUIET ERROR_VARIABLE sentence RESULT_VARIABLE failed)
+    if(flag AND NOT (failed AND sentence MATCHES "a NaN from the device becomes a force"))
+      message(SEND_ERROR "${header} may be compiled with ${flag}: ${sentence}")
+    elseif(failed AND NOT flag)
+      message(SEND_ERROR "${header}: ${sentence}")
+    endif()
+  endforeach()
+  execute_process(COMMAND ${command} -ffast-math -DFEELER_ALLOW_FAST_MATH ${SOURCE} OUTPUT_QUIET COMMAND_ERROR_IS_FATAL ANY)
+endforeach()
