@@ -66,7 +66,7 @@ ContactRow<typename Tool::Scalar> row_of(const CandidateConstraint& constraint, 
       for (std::size_t i = 0; i < face.vertices.size(); ++i) {
         const Vector start = pose * tool.vertex(face.vertices[i]);
         const Vector edge = pose * tool.vertex(face.vertices[(i + 1) % face.vertices.size()]) - start;
-        row.room = std::min(row.room, area_inside<Scalar>(start, edge, corner, -row.normal) / edge.norm());
+        row.room = (std::min)(row.room, area_inside<Scalar>(start, edge, corner, -row.normal) / edge.norm());
       }
       break;
     }
@@ -79,14 +79,14 @@ ContactRow<typename Tool::Scalar> row_of(const CandidateConstraint& constraint, 
       row.tool_edge = along_tool / tool_length;
       row.object_edge = along_object / object_length;
       const Vector cross = row.tool_edge.cross(row.object_edge);
-      const Scalar sine = std::max(cross.norm(), std::numeric_limits<Scalar>::epsilon());
+      const Scalar sine = (std::max)(cross.norm(), std::numeric_limits<Scalar>::epsilon());
       row.normal = cross / sine;
       if (row.normal.dot(detail::out_of_ridge<Scalar>(mesh, constraint.triangle, constraint.corner, side)) < Scalar(0)) row.normal = -row.normal;
       const Vector between = start - corner;
       const Vector turn = row.object_edge.cross(row.tool_edge);
       const Scalar on_object = between.cross(row.tool_edge).dot(turn) / (sine * sine);
       const Scalar on_tool = between.cross(row.object_edge).dot(turn) / (sine * sine);
-      row.room = std::min({on_object, object_length - on_object, on_tool, tool_length - on_tool});
+      row.room = (std::min)({on_object, object_length - on_object, on_tool, tool_length - on_tool});
       point = start + on_tool * row.tool_edge;
       row.gap = row.normal.dot(between);
       break;

@@ -85,7 +85,7 @@ SurfaceSide side_of_tool(const SurfaceFeatures<Scalar>& surface, const Feature& 
     }
     const auto faces = feature.kind == FeatureKind::edge ? incidence.edge_faces(feature.index) : incidence.vertex_faces(feature.index);
     Scalar margin = height(faces[0]);
-    for (const int face : faces.subspan(1)) margin = is_valley ? std::min(margin, height(face)) : std::max(margin, height(face));
+    for (const int face : faces.subspan(1)) margin = is_valley ? (std::min)(margin, height(face)) : (std::max)(margin, height(face));
     sum += margin;
   });
   return sum < -rounding ? SurfaceSide::back : SurfaceSide::front;

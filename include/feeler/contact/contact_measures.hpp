@@ -79,7 +79,7 @@ class ContactMeasures {
       sum += w.on_object;
       ++count;
     });
-    return sum / Scalar(std::max(count, 1));
+    return sum / Scalar((std::max)(count, 1));
   }
 
   /// The vertex or edge of a tool feature nearest to the middle of where it touches.
@@ -140,13 +140,13 @@ class ContactMeasures {
     const bool is_edges = touching.tool.kind == FeatureKind::edge && touching.object.kind == FeatureKind::edge;
     witnesses_.for_each(touching.witnesses, [&](const Witness& w) {
       if (is_face || is_edges) {
-        least = std::min(least, normal.dot(w.on_tool - w.on_object));
+        least = (std::min)(least, normal.dot(w.on_tool - w.on_object));
       } else if (shape != Convexity::concave) {
-        least = std::min(least, (w.on_tool - w.on_object).norm());
+        least = (std::min)(least, (w.on_tool - w.on_object).norm());
       }
       if (shape != Convexity::concave || is_face) return;
       for (const auto& plane : planes_around(surface_, touching.object, side))
-        least = std::min(least, Scalar(plane.normal.template cast<Scalar>().dot(w.on_tool - search_.local(plane.point))));
+        least = (std::min)(least, Scalar(plane.normal.template cast<Scalar>().dot(w.on_tool - search_.local(plane.point))));
     });
     return least;
   }

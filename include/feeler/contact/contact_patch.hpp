@@ -127,7 +127,7 @@ class ContactPatch {
 
   /// What a distance may fall short of the truth by [m]: the direction between points so near is rounded, which shows at the ends of a long triangle.
   Scalar rounding_of(Scalar distance) const noexcept {
-    return 16 * std::numeric_limits<Scalar>::epsilon() * triangle_.squared_size() / std::max(std::abs(distance), band_ / 1000);
+    return 16 * std::numeric_limits<Scalar>::epsilon() * triangle_.squared_size() / (std::max)(std::abs(distance), band_ / 1000);
   }
 
   /// The tool vertices in the band, from the lowest along edges: below any height a convex tool hangs together.
@@ -161,7 +161,7 @@ class ContactPatch {
     Scalar room = std::numeric_limits<Scalar>::infinity();
     for (int k = 0; k < 3; ++k) {
       const Scalar inside = triangle_.room_inside(k, vertex);
-      if (inside >= -seam_) room = std::min(room, inside);
+      if (inside >= -seam_) room = (std::min)(room, inside);
       // Beyond a valley what is free is above both faces, and the step may lead back over this one.
       else if (!(inside >= -band_) || !surface_.rises_across(k, triangle_.outward())) return;
     }
@@ -224,7 +224,7 @@ class ContactPatch {
       Scalar room = std::numeric_limits<Scalar>::infinity();
       for (std::size_t i = 0; i < loop.size() && room >= -seam_; ++i) {
         const Vector start = tool_.vertex(loop[i]), edge = tool_.vertex(loop[(i + 1) % loop.size()]) - start;
-        room = std::min(room, area_inside<Scalar>(start, edge, corner, outward) / edge.norm());
+        room = (std::min)(room, area_inside<Scalar>(start, edge, corner, outward) / edge.norm());
       }
       if (!(room >= -seam_) || !surface_.is_clear_of_neighbours_at_corner(k, Vector(-outward))) continue;
       rows.push_back(maker_.row_of(FeaturePair::face_vertex, Vector(-outward), corner, gap, room));
@@ -274,7 +274,7 @@ class ContactPatch {
     const Scalar along_object = between.cross(tool).dot(across) / cross_squared;
     const Scalar part_of_tool = between.cross(u).dot(across) / cross_squared;
     if (!(part_of_tool >= Scalar(0) && part_of_tool <= Scalar(1))) return;
-    const Scalar beyond = std::max(-along_object, along_object - object.length);
+    const Scalar beyond = (std::max)(-along_object, along_object - object.length);
     if (!(beyond <= band_)) return;
     const Vector normal = cross / (along_normal < Scalar(0) ? -std::sqrt(cross_squared) : std::sqrt(cross_squared));
     const Scalar gap = maker_.on_surface(normal.dot(between));
@@ -283,7 +283,7 @@ class ContactPatch {
     if (beyond > Scalar(0) && !surface_.rises_beyond(along_object < Scalar(0) ? object.number : (object.number + 1) % 3,
                                                      along_object < Scalar(0) ? Vector(-u) : u, normal)) return;
     const Scalar tool_length = std::sqrt(tool_squared);
-    const Scalar room = std::min({std::max(-beyond, Scalar(0)), part_of_tool * tool_length, (1 - part_of_tool) * tool_length});
+    const Scalar room = (std::min)({(std::max)(-beyond, Scalar(0)), part_of_tool * tool_length, (1 - part_of_tool) * tool_length});
     rows.push_back(maker_.row_of_edges(normal, Vector(tool_start + part_of_tool * tool), gap, room, u, Vector(tool / tool_length)));
   }
 
@@ -294,8 +294,8 @@ class ContactPatch {
     const Scalar length_squared = tool.squaredNorm();
     const Scalar first = object.dot(tool) > Scalar(0) ? tool.dot(start - tool_start) : tool.dot(start + object - tool_start);
     const Scalar extent = std::abs(object.dot(tool));
-    const Scalar from = std::max(Scalar(0), first / length_squared);
-    const Scalar to = std::min(Scalar(1), (first + extent) / length_squared);
+    const Scalar from = (std::max)(Scalar(0), first / length_squared);
+    const Scalar to = (std::min)(Scalar(1), (first + extent) / length_squared);
     if (!(from < to) || !surface_.is_clear_of_neighbour_across(edge.number, normal_)) return;
     for (const Scalar t : {from, to}) {
       const Vector on_tool = tool_start + t * tool;

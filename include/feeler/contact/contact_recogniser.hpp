@@ -102,10 +102,10 @@ class ContactRecogniser {
   using Candidates = FixedVector<Candidate, candidate_capacity>;
 
   static bool same_pair(const Candidate& a, const Candidate& b) noexcept { return a.tool == b.tool && a.object == b.object; }
-  /// Whether `small` is another candidate in the closures of `large`.
-  bool is_part_of(const Candidate& small, const Candidate& large) const noexcept {
-    return !same_pair(small, large) && tool_incidence_.contains(large.tool, small.tool) &&
-           surface_.incidence().contains(large.object, small.object);
+  /// Whether `smaller` is another candidate in the closures of `larger`.
+  bool is_part_of(const Candidate& smaller, const Candidate& larger) const noexcept {
+    return !same_pair(smaller, larger) && tool_incidence_.contains(larger.tool, smaller.tool) &&
+           surface_.incidence().contains(larger.object, smaller.object);
   }
   static bool has(const Candidates& list, const Feature& tool, const Feature& object) noexcept {
     return std::any_of(list.begin(), list.end(), [&](const Candidate& c) { return c.tool == tool && c.object == object; });

@@ -123,7 +123,7 @@ struct ContactRow {
 #pragma GCC unroll 3
           for (int i = 0; i < 3; ++i) {
             lower(3 + j, i) += turn[i];
-            lower(3 + std::max(i, j), 3 + std::min(i, j)) -= carried[i];
+            lower(3 + (std::max)(i, j), 3 + (std::min)(i, j)) -= carried[i];
           }
           lower(3 + j, 3 + j) -= carried[j];
         }

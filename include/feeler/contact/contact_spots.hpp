@@ -40,7 +40,7 @@ class ContactSpots {
  private:
   void join(int a, int b) noexcept {
     const int first = of(a), second = of(b);
-    spots_[std::size_t(std::max(first, second))] = std::min(first, second);
+    spots_[std::size_t((std::max)(first, second))] = (std::min)(first, second);
   }
 
   int count_ = 0;

@@ -46,16 +46,16 @@ class ContactWitnesses {
   /// Removes what is explained by a smaller feature: a vertex near an edge is also near the faces beside it.
   void keep_smallest(const FeatureIncidence& tool, const FeatureIncidence& object) noexcept {
     for (int i = witnesses_.size() - 1; i >= 0; --i) {
-      const Witness& large = witnesses_[i];
-      const auto explains = [&](const Witness& small) {
-        if (small.tool == large.tool && small.object == large.object) return false;
-        const bool at_tool_vertex = large.tool.kind == FeatureKind::vertex && small.tool == large.tool;
-        const bool at_object_vertex = large.object.kind == FeatureKind::vertex && small.object == large.object;
-        return (at_tool_vertex && object.contains(large.object, small.object)) ||
-               (at_object_vertex && tool.contains(large.tool, small.tool));
+      const Witness& larger = witnesses_[i];
+      const auto explains = [&](const Witness& smaller) {
+        if (smaller.tool == larger.tool && smaller.object == larger.object) return false;
+        const bool at_tool_vertex = larger.tool.kind == FeatureKind::vertex && smaller.tool == larger.tool;
+        const bool at_object_vertex = larger.object.kind == FeatureKind::vertex && smaller.object == larger.object;
+        return (at_tool_vertex && object.contains(larger.object, smaller.object)) ||
+               (at_object_vertex && tool.contains(larger.tool, smaller.tool));
       };
-      for (const Witness& small : witnesses_) {
-        if (!explains(small)) continue;
+      for (const Witness& smaller : witnesses_) {
+        if (!explains(smaller)) continue;
         witnesses_.swap_remove(i);
         break;
       }
@@ -87,7 +87,7 @@ class ContactWitnesses {
     if (!(length > least)) return 0;
     Scalar width = Scalar(0);
     for_each(set, [&](const Witness& w) {
-      width = std::max(width, Vector3<Scalar>(w.on_object - origin).cross(longest).norm() / length);
+      width = (std::max)(width, Vector3<Scalar>(w.on_object - origin).cross(longest).norm() / length);
     });
     return width > least ? 2 : 1;
   }

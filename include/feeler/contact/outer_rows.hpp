@@ -38,7 +38,7 @@ void take_outer_rows(const FixedVector<Row, capacity>& rows, const typename Row:
   };
   take_lowest(Vector::Zero());
   Scalar extent(0);
-  for (const Row& row : rows) extent = std::max(extent, (row.arm - rows[0].arm).norm());
+  for (const Row& row : rows) extent = (std::max)(extent, (row.arm - rows[0].arm).norm());
   static_assert(most_outer_rows == 16);
   constexpr Scalar cosine = Scalar(0.923879532511286756128L), sine = Scalar(0.382683432365089771728L);  // of a sixteenth of a turn
   Vector tilt = rows[0].normal.unitOrthogonal() * (rise / extent), across = rows[0].normal.cross(tilt);

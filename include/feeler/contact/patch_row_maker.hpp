@@ -44,7 +44,7 @@ class PatchRowMaker {
   Row row_of(FeaturePair kind, const Vector& normal, const Vector& point, Scalar gap, Scalar room = Scalar(0)) const noexcept {
     Row row;
     row.kind = kind;
-    row.room = std::max({room, gap / 64, least_room_});
+    row.room = (std::max)({room, gap / 64, least_room_});
     row.normal = world_from_tool_ * normal;
     row.arm = world_from_tool_ * (point - reference_);
     row.gap = gap;
@@ -103,8 +103,8 @@ class PatchRowMaker {
   void set_core_distance(Row& row) const noexcept
     requires SweptTool<Tool>
   {
-    row.core_distance = std::max(row.gap + tool_.swept_radius(), tool_.swept_radius() / 2);
-    row.room = std::max(row.room, row.core_distance / 20);
+    row.core_distance = (std::max)(row.gap + tool_.swept_radius(), tool_.swept_radius() / 2);
+    row.room = (std::max)(row.room, row.core_distance / 20);
   }
 
   const Tool& tool_;

@@ -74,7 +74,7 @@ class PatchTriangle {
   }
   /// The squares of the sides that meet in its first corner, the longer one [m²].
   Scalar squared_size() const noexcept {
-    return std::max((corners_.col(1) - corners_.col(0)).squaredNorm(), (corners_.col(2) - corners_.col(0)).squaredNorm());
+    return (std::max)((corners_.col(1) - corners_.col(0)).squaredNorm(), (corners_.col(2) - corners_.col(0)).squaredNorm());
   }
 
  private:

@@ -67,7 +67,7 @@ class SurfaceAround {
   /// A neighbour that is nearer to a tool in the direction of a normal outside the cone, or -1.
   int nearer_neighbour(const PlaceOnTriangle& place, const Vector& normal) const noexcept {
     if (place.corners == 1) return triangle_along(mesh_, triangle_, place.index, direction_of(normal));
-    if (place.corners == 2) return std::max(neighbour(place.index), -1);
+    if (place.corners == 2) return (std::max)(neighbour(place.index), -1);
     return -1;
   }
 

@@ -111,7 +111,7 @@ class WitnessSearch {
         const Vector normal = along.cross(Vector::Unit(k)).normalized();
         for (const Scalar sign : {Scalar(1), Scalar(-1)}) {
           Scalar offset = -std::numeric_limits<Scalar>::infinity();
-          for (const Vector& v : vertices_) offset = std::max(offset, sign * normal.dot(v));
+          for (const Vector& v : vertices_) offset = (std::max)(offset, sign * normal.dot(v));
           planes_.push_back({sign * normal, offset});
         }
       }
@@ -143,8 +143,8 @@ class WitnessSearch {
     Scalar least = std::numeric_limits<Scalar>::infinity(), most = -least;
     for (const Vector& v : vertices_) {
       const Scalar height = normal.dot(v - corners.col(0));
-      least = std::min(least, height);
-      most = std::max(most, height);
+      least = (std::min)(least, height);
+      most = (std::max)(most, height);
     }
     return least <= tolerance_ && most >= -tolerance_;
   }

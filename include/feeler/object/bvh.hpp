@@ -64,17 +64,15 @@ class Bvh {
       items[t].index = std::int32_t(t);
       for (int k = 0; k < 3; ++k) {
         const Scalar a = corner(items[t].index, 0)[k], b = corner(items[t].index, 1)[k], c = corner(items[t].index, 2)[k];
-        using std::max;
-        using std::min;
-        items[t].lower[k] = rounded_down(from_origin(min(a, min(b, c)), k));
-        items[t].upper[k] = rounded_up(from_origin(max(a, max(b, c)), k));
+        items[t].lower[k] = rounded_down(from_origin((std::min)({a, b, c}), k));
+        items[t].upper[k] = rounded_up(from_origin((std::max)({a, b, c}), k));
       }
     }
     const BvhBuilder builder(items);
     const auto make_leaf = [&](const BvhBuilder::Node& binary) {
       BvhLeaf leaf;
       for (int i = 0; i < BvhLeaf::width; ++i) {
-        const std::int32_t triangle = items[std::size_t(binary.first + std::min(i, binary.count - 1))].index;
+        const std::int32_t triangle = items[std::size_t(binary.first + (std::min)(i, binary.count - 1))].index;
         leaf.triangle[i] = i < binary.count ? triangle : -1;
         for (std::size_t c = 0; c < 3; ++c)
           for (int k = 0; k < 3; ++k) leaf.corner[c][k][i] = static_cast<float>(from_origin(corner(triangle, c)[k], k));

@@ -83,8 +83,8 @@ class BvhBuilder {
 
     void extend(const float* other_lower, const float* other_upper) noexcept {
       for (std::size_t k = 0; k < 3; ++k) {
-        lower[k] = std::min(lower[k], other_lower[k]);
-        upper[k] = std::max(upper[k], other_upper[k]);
+        lower[k] = (std::min)(lower[k], other_lower[k]);
+        upper[k] = (std::max)(upper[k], other_upper[k]);
       }
     }
     float half_area() const noexcept { return BvhBuilder::half_area(lower.data(), upper.data()); }
@@ -145,7 +145,7 @@ class BvhBuilder {
     std::array<float, 3> scale{};
     for (std::size_t k = 0; k < 3; ++k) {
       const float side = centres.upper[k] - centres.lower[k];
-      scale[k] = side > std::numeric_limits<float>::min() * bin_count ? float(bin_count) / side : 0.0F;
+      scale[k] = side > (std::numeric_limits<float>::min)() * bin_count ? float(bin_count) / side : 0.0F;
     }
     for (std::int32_t i = task.begin; i < task.end; ++i) {
       const BvhItem& item = items_[std::size_t(i)];
@@ -188,7 +188,7 @@ class BvhBuilder {
   static std::size_t bin_of(const BvhItem& item, std::size_t axis, const Box& centres,
                             const std::array<float, 3>& scale) noexcept {
     const float position = (centre(item, axis) - centres.lower[axis]) * scale[axis];
-    return std::min(std::size_t(position), std::size_t(bin_count - 1));
+    return (std::min)(std::size_t(position), std::size_t(bin_count - 1));
   }
 
   std::vector<BvhItem>& items_;

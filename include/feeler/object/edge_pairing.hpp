@@ -56,7 +56,7 @@ class EdgePairing {
   std::vector<std::pair<int, int>> pair_edges(int vertex_count, MeshReport& report) {
     const auto slot_count = std::int32_t(neighbours.size());
     std::vector<std::int32_t> begin(std::size_t(vertex_count) + 1, 0);
-    for (std::int32_t s = 0; s < slot_count; ++s) ++begin[std::size_t(std::min(start_of(s), end_of(s))) + 1];
+    for (std::int32_t s = 0; s < slot_count; ++s) ++begin[std::size_t((std::min)(start_of(s), end_of(s))) + 1];
     std::partial_sum(begin.begin(), begin.end(), begin.begin());
     std::vector<Edge> edges(neighbours.size());
     std::vector<std::int32_t> next = begin;
@@ -88,17 +88,17 @@ class EdgePairing {
   /// Joins the triangles around one edge.
   void join(const Edge* edges, int count, MeshReport& report) {
     int used = 0;
-    std::array<std::int32_t, 2> slots{};
+    std::array<std::int32_t, 2> both{};
     for (int i = 0; i < count; ++i) {
       if (has_repeated_corner(triangles_[std::size_t(edges[i].slot / 3)])) continue;
-      if (used < 2) slots[std::size_t(used)] = edges[i].slot;
+      if (used < 2) both[std::size_t(used)] = edges[i].slot;
       ++used;
     }
     if (used == 1) ++report.boundary_edges;
     if (used == 2) {
-      neighbours[std::size_t(slots[0])] = slots[1] / 3;
-      neighbours[std::size_t(slots[1])] = slots[0] / 3;
-      if (start_of(slots[0]) == start_of(slots[1])) ++report.inconsistent_edges;
+      neighbours[std::size_t(both[0])] = both[1] / 3;
+      neighbours[std::size_t(both[1])] = both[0] / 3;
+      if (start_of(both[0]) == start_of(both[1])) ++report.inconsistent_edges;
     }
     if (used <= 2) return;
     ++report.non_manifold_edges;
@@ -155,7 +155,7 @@ class EdgePairing {
 
   void count_duplicates(int vertex_count, MeshReport& report) const {
     std::vector<std::int32_t> begin(std::size_t(vertex_count) + 1, 0);
-    for (const auto& t : triangles_) ++begin[std::size_t(std::min({t[0], t[1], t[2]})) + 1];
+    for (const auto& t : triangles_) ++begin[std::size_t((std::min)({t[0], t[1], t[2]})) + 1];
     std::partial_sum(begin.begin(), begin.end(), begin.begin());
     std::vector<std::pair<int, int>> rest(triangles_.size());  // the two larger corners
     std::vector<std::int32_t> next(begin.begin(), begin.end() - 1);

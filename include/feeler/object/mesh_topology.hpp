@@ -98,10 +98,10 @@ class MeshTopology {
     const Vector3<Working> own = inward(c), across = inward(d);
     const Working own_height = own.norm(), across_height = across.norm();
     const Vector3<Working> normal = triangle_normal<Working>(at(a), at(b), at(c));
-    const Working lowest = std::min(own_height, across_height);
+    const Working lowest = (std::min)(own_height, across_height);
     if (!(lowest > Working(0)) || normal.isZero()) return Convexity::flat;
     // A corner is known to its rounding, which tilts a low triangle more than a high one.
-    const Working size = std::max({at(a).cwiseAbs().maxCoeff(), at(b).cwiseAbs().maxCoeff(),
+    const Working size = (std::max)({at(a).cwiseAbs().maxCoeff(), at(b).cwiseAbs().maxCoeff(),
                                    at(c).cwiseAbs().maxCoeff(), at(d).cwiseAbs().maxCoeff()});
     const Working tolerance = 8 * Working(std::numeric_limits<Scalar>::epsilon()) * (1 + size / lowest);
     const Working sine = normal.dot(across) / across_height;

@@ -125,7 +125,7 @@ class SurfaceFeatures {
       std::vector<signed char> orientation{1};  // of the triangles in `open`
       for (std::size_t i = 0; i < open.size(); ++i) {
         const int triangle = open[i];
-        faces_.back().first_triangle = std::min(faces_.back().first_triangle, triangle);
+        faces_.back().first_triangle = (std::min)(faces_.back().first_triangle, triangle);
         const Matrix3<Scalar> corners = mesh.corners(triangle);
         const Vector3<Scalar> normal = mesh.normal(triangle);
         const Scalar area = Vector3<Scalar>(corners.col(1) - corners.col(0))
@@ -168,7 +168,7 @@ class SurfaceFeatures {
     struct Slot {
       int low, high, slot;
     };
-    std::vector<Slot> slots;
+    std::vector<Slot> all_slots;
     triangle_edge_.resize(3 * at(mesh.triangle_count()));
     for (int t = 0; t < mesh.triangle_count(); ++t) {
       for (int k = 0; k < 3; ++k) {
@@ -176,14 +176,14 @@ class SurfaceFeatures {
         triangle_edge_[at(3 * t + k)] = {FeatureKind::face, face};
         if (neighbour >= 0 && face_of_triangle(neighbour) == face) continue;
         const auto [low, high] = std::minmax(mesh.triangle(t)[at(k)], mesh.triangle(t)[at((k + 1) % 3)]);
-        if (low != high) slots.push_back({low, high, 3 * t + k});
+        if (low != high) all_slots.push_back({low, high, 3 * t + k});
       }
     }
-    std::sort(slots.begin(), slots.end(), [](const Slot& a, const Slot& b) {
+    std::sort(all_slots.begin(), all_slots.end(), [](const Slot& a, const Slot& b) {
       return std::array<int, 3>{a.low, a.high, a.slot} < std::array<int, 3>{b.low, b.high, b.slot};
     });
     std::vector<MeshEdge> result;
-    for (const Slot& slot : slots) {
+    for (const Slot& slot : all_slots) {
       const int triangle = slot.slot / 3;
       if (result.empty() || result.back().ends != std::array<int, 2>{slot.low, slot.high})
         result.push_back({{slot.low, slot.high}, convexity_of(mesh, triangle, slot.slot % 3), {}});
@@ -229,7 +229,7 @@ class SurfaceFeatures {
         is_corner[at(v)] = faces_of[v].size() > 1;
       } else if (edges.size() == 2 && continues(mesh, v, mesh_edges[at(edges[0])], mesh_edges[at(edges[1])], faces_of[v].size())) {
         const int a = root(edges[0]), b = root(edges[1]);
-        parent[at(std::max(a, b))] = std::min(a, b);
+        parent[at((std::max)(a, b))] = (std::min)(a, b);
       } else {
         is_corner[at(v)] = 1;
       }
@@ -297,8 +297,8 @@ class SurfaceFeatures {
     };
     const Vector3<Working> middle = mesh.vertex(vertex).template cast<Working>();
     const Vector3<Working> first = other_end(a) - middle, second = other_end(b) - middle;
-    const Working shortest = std::min(first.norm(), second.norm());
-    const Working size = std::max({middle.cwiseAbs().maxCoeff(), other_end(a).cwiseAbs().maxCoeff(), other_end(b).cwiseAbs().maxCoeff()});
+    const Working shortest = (std::min)(first.norm(), second.norm());
+    const Working size = (std::max)({middle.cwiseAbs().maxCoeff(), other_end(a).cwiseAbs().maxCoeff(), other_end(b).cwiseAbs().maxCoeff()});
     const Working sine = first.normalized().cross(second.normalized()).norm();
     // A vertex is known to its rounding, which turns a short edge more than a long one.
     return first.dot(second) < Working(0) &&

@@ -48,7 +48,7 @@ class TriangleMesh {
     weld(vertices, triangles);
     for (const Vector3<Scalar>& v : vertices_) bounds_.extend(v);
     topology_ = MeshTopology(vertices_, triangles_, report_);
-    const Vector3<Scalar> middle = bounds_.min() / 2 + bounds_.max() / 2;  // the sum could overflow
+    const Vector3<Scalar> middle = (bounds_.min)() / 2 + (bounds_.max)() / 2;  // the sum could overflow
     bvh_ = Bvh<Scalar>(vertices_, triangles_, middle);
     report_.triangles = triangle_count();
     report_.vertices = vertex_count();

@@ -23,7 +23,7 @@ void visit_triangles_in(const TriangleMesh<MeshScalar>& mesh, const Eigen::Align
   const Vector3<Scalar> origin = mesh.bvh().origin().template cast<Scalar>();
   std::array<float, 3> lower, upper;
   for (int k = 0; k < 3; ++k) {
-    const Scalar from = box.min()[k] - origin[k], to = box.max()[k] - origin[k];
+    const Scalar from = (box.min)()[k] - origin[k], to = (box.max)()[k] - origin[k];
     lower[std::size_t(k)] = std::nextafter(float(from), -std::numeric_limits<float>::infinity());
     upper[std::size_t(k)] = std::nextafter(float(to), std::numeric_limits<float>::infinity());
   }

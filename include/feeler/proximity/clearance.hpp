@@ -25,11 +25,11 @@ struct Clearance {
   /// Separation required along a motion that starts `start` away: tight fits may halve it, an overlap may stay but not grow. To halve
   /// what is negligible too would stop a tool that slides in such a fit.
   Scalar required(Scalar start) const noexcept {
-    if (start >= 2 * kept) return std::min(kept, start);  // kept may be an overlap itself
+    if (start >= 2 * kept) return (std::min)(kept, start);  // kept may be an overlap itself
     if (start > negligible()) {
       // A motion that left no more than `rounding` ended a last bit below it, or above: the next one may lose such a bit, and not half.
-      const Scalar least = start > rounding / 2 ? std::min(rounding, start - allowance / 32) : Scalar(0);
-      return std::max(start / 2, least);
+      const Scalar least = start > rounding / 2 ? (std::min)(rounding, start - allowance / 32) : Scalar(0);
+      return (std::max)(start / 2, least);
     }
     return std::clamp(start, -2 * allowance, -allowance);
   }

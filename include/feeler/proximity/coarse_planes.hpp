@@ -17,7 +17,7 @@ namespace feeler {
 /// Planes with normals n and limits, and the sides of a box. A plane passes what is below it, n·y ≤ limit for every y of a box or a
 /// triangle; the sides pass boxes that are beyond one of them. Rounding makes it pass less, never more.
 /// @tparam lanes  how many are computed side by side: 4, 2 or 1; the answers are the same
-template <class Scalar, int capacity, int lanes = std::min(BvhNode::width, detail::lanes_of<float>)>
+template <class Scalar, int capacity, int lanes = (std::min)(BvhNode::width, detail::lanes_of<float>)>
 class CoarsePlanes {
  public:
   static constexpr int width = BvhNode::width;

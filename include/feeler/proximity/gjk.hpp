@@ -96,7 +96,7 @@ template <ConvexTool Tool, class Object>
   const auto add = [&](int vertex, int corner) {
     const auto i = std::size_t(simplex.size++);
     const Vector3<Scalar> point = tool.vertex(vertex);
-    size = std::max(size, point.template lpNorm<Eigen::Infinity>());
+    size = (std::max)(size, point.template lpNorm<Eigen::Infinity>());
     simplex.points[i] = point - object.corner(corner);
     simplex.tool_vertices[i] = vertex;
     simplex.corners[i] = corner;
@@ -165,7 +165,7 @@ ClosestPoints<typename Tool::Scalar> closest_to_large(const Tool& tool, const Ma
   unsigned mask = 0;
   FixedVector<short, 3> vertices, corners;
   closest.tool_point = closest.triangle_point = Vector::Zero();
-  for (std::size_t i = 0; i < std::size_t(std::min(answer.simplex.size, 3)); ++i) {
+  for (std::size_t i = 0; i < std::size_t((std::min)(answer.simplex.size, 3)); ++i) {
     const PartCorner<Scalar>& corner = part[answer.simplex.corners[i]];
     mask |= corner.corners;
     closest.tool_point += answer.simplex.weights[i] * tool.vertex(answer.simplex.tool_vertices[i]);
@@ -176,10 +176,10 @@ ClosestPoints<typename Tool::Scalar> closest_to_large(const Tool& tool, const Ma
   for (int k = 0; k < 3; ++k) {
     if ((mask >> unsigned(k) & 1U) != 0) corners.push_back(short(k));
   }
-  closest.features.size = std::max(vertices.size(), corners.size());
+  closest.features.size = (std::max)(vertices.size(), corners.size());
   for (int i = 0; i < closest.features.size; ++i) {
-    closest.features.tool_vertices[std::size_t(i)] = vertices[std::min(i, vertices.size() - 1)];
-    closest.features.corners[std::size_t(i)] = corners[std::min(i, corners.size() - 1)];
+    closest.features.tool_vertices[std::size_t(i)] = vertices[(std::min)(i, vertices.size() - 1)];
+    closest.features.corners[std::size_t(i)] = corners[(std::min)(i, corners.size() - 1)];
   }
   Vector normal = answer.closest.normal;
   if (corners.size() == 2) {
@@ -218,7 +218,7 @@ ClosestPoints<typename Tool::Scalar> gjk(const Tool& tool, const Matrix3<typenam
   auto answer = detail::run_gjk(tool, detail::WholeTriangle<Scalar>{triangle}, warm, touching_distance);
   ClosestPoints<Scalar>& result = answer.closest;
   const auto& simplex = answer.simplex;
-  result.features.size = std::min(simplex.size, 3);
+  result.features.size = (std::min)(simplex.size, 3);
   for (std::size_t i = 0; i < std::size_t(result.features.size); ++i) {
     result.features.tool_vertices[i] = short(simplex.tool_vertices[i]);
     result.features.corners[i] = short(simplex.corners[i]);

@@ -18,7 +18,7 @@ template <ConvexTool Tool>
 typename Tool::Scalar radius_about(const Tool& tool, const Vector3<typename Tool::Scalar>& point) noexcept {
   using std::sqrt;
   typename Tool::Scalar largest(0);
-  for (int i = 0; i < tool.vertex_count(); ++i) largest = std::max(largest, (tool.vertex(i) - point).squaredNorm());
+  for (int i = 0; i < tool.vertex_count(); ++i) largest = (std::max)(largest, (tool.vertex(i) - point).squaredNorm());
   return sqrt(largest);
 }
 
@@ -126,7 +126,7 @@ class MovingTool {
       const auto turn_of = [this](int i) {
         return motion_.angular.cross(pose_.rotation * Vector(tool_.vertex(i) - reference_)).norm();
       };
-      return symmetry_of<Tool> == Symmetry::about_axis ? std::max(turn_of(0), turn_of(1)) : turn_of(0);
+      return symmetry_of<Tool> == Symmetry::about_axis ? (std::max)(turn_of(0), turn_of(1)) : turn_of(0);
     }
   }
 

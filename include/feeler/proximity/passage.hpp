@@ -67,7 +67,7 @@ HeldPart<typename Tool::Scalar> held_part(const MovingTool<Tool>& moving, const 
   const Vector3<Scalar> turned = other.rotation * (at.rotation.transpose() * plane.normal);
   const Scalar height = plane.slack + highest_corner(corners, plane.normal) - plane.normal.dot(at.shift);
   const Scalar there_tool = height + turned.dot(other.shift) - highest_corner(corners, turned) - required;
-  const Scalar reach = sqrt(std::max((corners.colwise() - at.shift).colwise().squaredNorm().maxCoeff(),
+  const Scalar reach = sqrt((std::max)((corners.colwise() - at.shift).colwise().squaredNorm().maxCoeff(),
                                      (corners.colwise() - other.shift).colwise().squaredNorm().maxCoeff()));
   const Scalar sagitta_tool = moving.sagitta_of_object(plane.normal, duration, reach);
   const Scalar part_tool = at_is_start ? first_root(here, there_tool, sagitta_tool) : first_root(there_tool, here, sagitta_tool);
@@ -76,7 +76,7 @@ HeldPart<typename Tool::Scalar> held_part(const MovingTool<Tool>& moving, const 
   const Scalar there = moving.lowest(plane.normal, other) - highest_corner(corners, plane.normal) - required;
   const Scalar sagitta = moving.sagitta(plane.normal, duration);
   const Scalar part_world = at_is_start ? first_root(here, there, sagitta) : first_root(there, here, sagitta);
-  return {std::max(part_tool, part_world), part_world < part_tool};
+  return {(std::max)(part_tool, part_world), part_world < part_tool};
 }
 
 }  // namespace detail
@@ -106,7 +106,7 @@ bool turning_plane_holds(const MovingTool<Tool>& moving, const Matrix3<typename 
   // For a ball of radius r, r|n(t)| is subtracted, and |n(t)| ≤ 1 − (1 − n₀·n₁) t (1 − t), whose coefficients are 1, ½(1 + n₀·n₁) and 1.
   if constexpr (SweptTool<Tool>) b1 -= swept_radius(moving.tool()) * (Scalar(1) + first.normal.dot(last.normal)) / 2;
   const Scalar duration = end.time - start.time;
-  const Scalar sagitta = std::max(moving.sagitta(first.normal, duration), moving.sagitta(last.normal, duration));
+  const Scalar sagitta = (std::max)(moving.sagitta(first.normal, duration), moving.sagitta(last.normal, duration));
   return b1 - 2 * sagitta >= -sqrt(b0 * b2);
 }
 
@@ -162,8 +162,8 @@ Passage<typename Tool::Scalar> pass(const MovingTool<Tool>& moving, const Passed
   }
   Plane last = query(end, touches);
   if (last.slack > -std::numeric_limits<Scalar>::infinity()) {
-    const Scalar known = std::max(slack_at(last.normal, start), is_known ? plane.slack : Scalar(0));
-    const Scalar required = clearance.required(std::max(known, Scalar(0)));
+    const Scalar known = (std::max)(slack_at(last.normal, start), is_known ? plane.slack : Scalar(0));
+    const Scalar required = clearance.required((std::max)(known, Scalar(0)));
     const auto held = detail::held_part(moving, corners, last, end, start, required, false);
     if (!(held.part < Scalar(1))) return {end.time, false, last.normal, warm, held.turns, last.slack};
   }
@@ -175,7 +175,7 @@ Passage<typename Tool::Scalar> pass(const MovingTool<Tool>& moving, const Passed
   const Scalar required = clearance.required(plane.slack);
   if (detail::turning_plane_holds(moving, corners, plane, start, last, end, required)) return {end.time, false, last.normal, warm, false, last.slack};
   const Scalar length = moving.length() * end.time;
-  const Scalar resolution = triangle.is_exact ? clearance.resolution : std::max(clearance.resolution, length / 16);
+  const Scalar resolution = triangle.is_exact ? clearance.resolution : (std::max)(clearance.resolution, length / 16);
   const int maximum_steps = triangle.is_exact ? 24 : 10;
   MotionFrame<Scalar> frame = start;
   Scalar beyond = end.time;  // to where no turning plane is known to hold
@@ -187,9 +187,9 @@ Passage<typename Tool::Scalar> pass(const MovingTool<Tool>& moving, const Passed
     Scalar advance = whole * (is_found ? part_from_start : detail::held_part(moving, corners, plane, frame, end, required, true).part);
     if (advance < whole && 3 * advance < whole) {
       // A sagitta falls with the square of the duration: over a shorter part the same plane holds for longer.
-      const Scalar shorter = std::max(3 * advance, whole / 8);
+      const Scalar shorter = (std::max)(3 * advance, whole / 8);
       const MotionFrame<Scalar> near_end = moving.frame_at(frame.time + shorter);
-      advance = std::max(advance, shorter * detail::held_part(moving, corners, plane, frame, near_end, required, true).part);
+      advance = (std::max)(advance, shorter * detail::held_part(moving, corners, plane, frame, near_end, required, true).part);
     }
     if (!(advance < whole)) return {end.time, false, last.normal, warm, false, last.slack};
     const Scalar half = (beyond - frame.time) / 2;

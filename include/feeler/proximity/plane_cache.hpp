@@ -95,7 +95,7 @@ class PlaneCache {
     template <class Moving>
     void end(const Moving& moving, const MotionFrame<Scalar>& frame, Scalar kept, Scalar noticed) noexcept {
       PlaneOnMotion<Scalar>::end(moving, frame);
-      limit = std::min(this->least - kept, this->last - noticed);
+      limit = (std::min)(this->least - kept, this->last - noticed);
     }
   };
 

@@ -50,7 +50,7 @@ SeparatingAxis<typename Tool::Scalar> best_separating_axis(const Tool& tool,
   constexpr Scalar epsilon = std::numeric_limits<Scalar>::epsilon();
   SeparatingAxis<Scalar> best;
   const Scalar size = triangle.cwiseAbs().maxCoeff() + tool.vertex(0).cwiseAbs().maxCoeff();
-  const Scalar enough = -std::max(accepted, 4 * epsilon * size);
+  const Scalar enough = -(std::max)(accepted, 4 * epsilon * size);
   Scalar handicap = Scalar(0);
   const auto attempt = [&](const Vector3<Scalar>& normal) {
     for (const Vector3<Scalar>& n : {normal, Vector3<Scalar>(-normal)}) {

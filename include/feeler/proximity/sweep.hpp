@@ -71,7 +71,7 @@ template <ConvexTool Tool>
 typename Tool::Scalar worth_certifying(typename Tool::Scalar blocked, const Clearance<typename Tool::Scalar>& clearance,
                                        const MovingTool<Tool>& moving) noexcept {
   using Scalar = typename Tool::Scalar;
-  return std::min(Scalar(1), std::max(blocked + Scalar(1) / 32, clearance.probe / moving.length()));
+  return (std::min)(Scalar(1), (std::max)(blocked + Scalar(1) / 32, clearance.probe / moving.length()));
 }
 
 /// Certifies motions of a tool against a triangle mesh with one traversal of its bounding volume hierarchy.
@@ -122,7 +122,7 @@ class Sweep {
       if (work <= low) return true;
       if (work > limit) return false;
       low = limit - (limit - low) / 2;
-      result.time = std::min(result.time, end_.time / 4);  // with a shorter motion
+      result.time = (std::min)(result.time, end_.time / 4);  // with a shorter motion
       set_end(moving, end_.time / 4);
       return true;
     };
@@ -204,8 +204,8 @@ class Sweep {
     // Beside a wall that the tool slides along there may be a way that leads nowhere near it in any other direction.
     if (state.is_exact && is_behind_known(state.corners, moving, work)) return;
     result.add({triangle, passage.time, 0, passage.features});
-    first_blocked_ = std::min(first_blocked_, passage.time);
-    result.time = std::min(result.time, passage.time);
+    first_blocked_ = (std::min)(first_blocked_, passage.time);
+    result.time = (std::min)(result.time, passage.time);
     const Scalar end = worth_certifying(result.time, clearance_, moving);
     if (end < end_.time) set_end(moving, end);
   }
@@ -235,7 +235,7 @@ class Sweep {
     end_ = moving.frame_at(time);
     planes_.end(moving, end_, clearance_.kept, clearance_.noticed);
     planes_.with_tool().set_motion(moving, start_, end_, clearance_.kept, clearance_.noticed);
-    const Scalar around = std::max(clearance_.kept, clearance_.noticed);
+    const Scalar around = (std::max)(clearance_.kept, clearance_.noticed);
     for (int k = 0; k < 3; ++k) coarse_.set_sides(k, planes_.box().lower(k) - around, planes_.box().upper(k) + around);
     for (int i = 0; i < planes_.size(); ++i) coarse_.set_plane(i, planes_.normal(i), planes_.limit(i));
   }

@@ -92,10 +92,10 @@ class ToolPlanes {
     void set_motion(const Moving& moving, const MotionFrame<Scalar>& start, const MotionFrame<Scalar>& end, Scalar kept, Scalar noticed) noexcept {
       at_start.normal = start.rotation * normal;
       at_end.normal = end.rotation * normal;
-      const Scalar reach = moving.radius() + swept_radius(moving.tool()) + std::max(kept, noticed) + moving.length();
+      const Scalar reach = moving.radius() + swept_radius(moving.tool()) + (std::max)(kept, noticed) + moving.length();
       const Scalar least = height - kept - moving.sagitta_of_object(at_start.normal, end.time, reach);
       at_start.limit = least + at_start.normal.dot(start.shift);
-      at_end.limit = std::min(least, height - noticed) + at_end.normal.dot(end.shift);
+      at_end.limit = (std::min)(least, height - noticed) + at_end.normal.dot(end.shift);
     }
   };
 

@@ -74,7 +74,7 @@ class InBatches {
   /// As in `NearestFirst`; valid until the next call.
   std::span<const std::int32_t> take() noexcept {
     if (leaf_count_ >= batch || node_count_ == 0) return {leaves_.data(), std::size_t(std::exchange(leaf_count_, 0))};
-    const int count = node_count_ > roomy ? 1 : std::min(node_count_, batch);  // one by one they need no more room than a stack
+    const int count = node_count_ > roomy ? 1 : (std::min)(node_count_, batch);  // one by one they need no more room than a stack
     node_count_ -= count;
     std::copy_n(nodes_.begin() + node_count_, count, taken_.begin());
     return {taken_.data(), std::size_t(count)};

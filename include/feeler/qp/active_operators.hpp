@@ -26,7 +26,7 @@ class ActiveOperators {
   /// Six numbers, in whole groups and aligned to them.
   ///
   /// To 16 bytes at least: of plain loops over columns g++ 12 makes loads that need as much, even where it can see that they have less.
-  struct alignas(std::max(alignof(Group), std::size_t(16))) Column : std::array<Scalar, lanes <= 2 ? 6 : 8> {};
+  struct alignas((std::max)(alignof(Group), std::size_t(16))) Column : std::array<Scalar, lanes <= 2 ? 6 : 8> {};
 
   /// The images of a vector: `step` is P·v, and `share` is N*·v, a number a slot; behind the slots in use it
   /// is some number.

@@ -23,13 +23,13 @@ constexpr double least_share = 5e-3;
 /// projected twice [rad].
 template <RealScalar Scalar>
 Scalar dependent_angle() noexcept {
-  return std::max(Scalar(1e-8), Scalar(16 * std::numeric_limits<Scalar>::epsilon()));
+  return (std::max)(Scalar(1e-8), Scalar(16 * std::numeric_limits<Scalar>::epsilon()));
 }
 
 /// Keeps the score of a row of zeros finite.
 template <RealScalar Scalar>
 Scalar smallest_weight() noexcept {
-  return std::numeric_limits<Scalar>::min() / std::numeric_limits<Scalar>::epsilon();
+  return (std::numeric_limits<Scalar>::min)() / std::numeric_limits<Scalar>::epsilon();
 }
 
 /// A group of violations of which what lies behind the last row is none, however it is followed.

@@ -80,7 +80,7 @@ class DualActiveSet {
  private:
   using Six = detail::Six<Scalar>;
   using Scan = detail::RowScan<Scalar, lanes>;
-  static constexpr int table_lanes = std::min(lanes, 4);  // more make a few rows no quicker
+  static constexpr int table_lanes = (std::min)(lanes, 4);  // more make a few rows no quicker
   using FewRows = detail::DualTableau<Scalar, table_lanes, detail::WholeTable<Scalar, table_lanes>>;
   using SomeRows = detail::DualTableau<Scalar, table_lanes, detail::TableByColumns<Scalar, table_lanes>>;
 

@@ -79,7 +79,7 @@ class DualTableau {
   /// Share of its weight with nothing active that a row has to have left.
   static Scalar independent() noexcept { return dependent_angle<Scalar>() * dependent_angle<Scalar>(); }
   /// Share of which the table has too few digits.
-  static Scalar rough() noexcept { return std::max(Scalar(1e-7), Scalar(1024 * std::numeric_limits<Scalar>::epsilon())); }
+  static Scalar rough() noexcept { return (std::max)(Scalar(1e-7), Scalar(1024 * std::numeric_limits<Scalar>::epsilon())); }
 
   static std::size_t index(int i) noexcept { return std::size_t(i); }
 
@@ -249,7 +249,7 @@ class DualTableau {
   /// No step meets a row, and no force that ends makes one.
   void refuse(int row, const Values& column) noexcept {
     refused_ = row;
-    for (int i = 0; i < active_.rows.size(); ++i) shares_[index(i)] = std::min(Scalar(0), share_of(i, column));
+    for (int i = 0; i < active_.rows.size(); ++i) shares_[index(i)] = (std::min)(Scalar(0), share_of(i, column));
   }
   /// Brings the table up to the row that became active last.
   void sweep_last() noexcept {

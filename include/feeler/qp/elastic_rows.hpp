@@ -34,7 +34,7 @@ class ElasticRows {
 
   void clear() noexcept { size_ = 0; }
   /// Appends the bounds of the next row of a problem.
-  void add(Scalar soft, Scalar hard) noexcept { rows_[index(size_++)] = {soft, std::min(hard, soft), false}; }
+  void add(Scalar soft, Scalar hard) noexcept { rows_[index(size_++)] = {soft, (std::min)(hard, soft), false}; }
 
   /// ξ of the last solution [m].
   Scalar relaxation() const noexcept { return relaxation_; }
@@ -43,7 +43,7 @@ class ElasticRows {
   /// The relaxation that a step of zero needs [m].
   Scalar relaxation_at_rest() const noexcept {
     Scalar most(0);
-    for (int k = 0; k < size_; ++k) most = std::max(most, rows_[index(k)].soft);
+    for (int k = 0; k < size_; ++k) most = (std::max)(most, rows_[index(k)].soft);
     return most;
   }
 
@@ -71,14 +71,14 @@ class ElasticRows {
         if (joins) begin_again(low, high, most);
         if (!joins && !(relaxation_ < high)) return 0;
         low = relaxation_;
-        relaxation_ = std::min(low + std::max(lack(problem, solution), joins ? Scalar(0) : least), high);
+        relaxation_ = (std::min)(low + (std::max)(lack(problem, solution), joins ? Scalar(0) : least), high);
         is_least = true;
         continue;
       }
       if (status != QpStatus::optimal) return 0;
       const Scalar sum = sum_of_soft(solution);
       if (sum <= price) {
-        const bool is_close = sum >= price - price / 1000 || !(relaxation_ - low > std::max(least, most / 1000));
+        const bool is_close = sum >= price - price / 1000 || !(relaxation_ - low > (std::max)(least, most / 1000));
         if (is_least || is_close || solves == maximum_solves) return solves;
         high = relaxation_;
       } else {
@@ -94,7 +94,7 @@ class ElasticRows {
       }
       // Where the same rows stay active the next sum is the price; else in the middle of what is known.
       is_least = false;
-      const Scalar next = sum > price ? low + std::max((sum - price) / fall_of_sum(problem, solution), least) : high;
+      const Scalar next = sum > price ? low + (std::max)((sum - price) / fall_of_sum(problem, solution), least) : high;
       relaxation_ = next < high ? next : (low + high) / 2;
     }
     return 0;
@@ -125,7 +125,7 @@ class ElasticRows {
 
   Scalar bound(int k) const noexcept {
     const Row& row = rows_[index(k)];
-    return row.is_relaxed ? std::max(row.hard, row.soft - relaxation_) : row.soft;
+    return row.is_relaxed ? (std::max)(row.hard, row.soft - relaxation_) : row.soft;
   }
   bool is_soft(int k) const noexcept { return bound(k) > rows_[index(k)].hard; }
   void load(QpProblem<Scalar>& problem) const noexcept {
@@ -166,7 +166,7 @@ class ElasticRows {
     const Weights y = others.colPivHouseholderQr().solve(-problem.rows[index(rows[last])]);
     Scalar lacking = bound(rows[last]), soft = is_soft(rows[last]) ? Scalar(1) : Scalar(0);
     for (int i = 0; i < last; ++i) {
-      const Scalar weight = std::max(y[i], Scalar(0));
+      const Scalar weight = (std::max)(y[i], Scalar(0));
       lacking += weight * bound(rows[i]);
       if (is_soft(rows[i])) soft += weight;
     }
@@ -194,7 +194,7 @@ class ElasticRows {
     const Columns whitened = factor.matrixL().solve(rows);
     const Eigen::Matrix<Scalar, Eigen::Dynamic, Eigen::Dynamic, 0, most_rows, most_rows> delassus = whitened.transpose() * whitened;
     const Weights change = delassus.colPivHouseholderQr().solve(soft);
-    return std::max(soft.dot(change), std::numeric_limits<Scalar>::epsilon());
+    return (std::max)(soft.dot(change), std::numeric_limits<Scalar>::epsilon());
   }
 
   int size_ = 0;

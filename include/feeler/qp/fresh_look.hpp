@@ -22,7 +22,7 @@ Scalar far_away(const Six<Scalar>& a, const Six<Scalar>& x, const Scalar& violat
 /// What rounding leaves of a row that is a sum of others.
 template <RealScalar Scalar>
 Scalar allowed_rest(const Six<Scalar>& a) noexcept {
-  return std::max(Scalar(1e-12), Scalar(64 * std::numeric_limits<Scalar>::epsilon())) * size_of(a);
+  return (std::max)(Scalar(1e-12), Scalar(64 * std::numeric_limits<Scalar>::epsilon())) * size_of(a);
 }
 
 /// Looks at x and at rows that are said to be active there, by the problem alone.

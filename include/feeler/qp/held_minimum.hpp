@@ -141,7 +141,7 @@ class HeldMinimum {
   }
 
   /// Of x, by which it may lie beside a row.
-  static Scalar rough() noexcept { return std::min(Scalar(0x1p17) * std::numeric_limits<Scalar>::epsilon(), Scalar(0x1p-35)); }
+  static Scalar rough() noexcept { return (std::min)(Scalar(0x1p17) * std::numeric_limits<Scalar>::epsilon(), Scalar(0x1p-35)); }
 
   Values multipliers_{}, lacking_{};
   Six<Scalar> x_{}, force_{};

@@ -99,15 +99,15 @@ class InteriorPoint {
 
   /// Rows, complementarity and stationarity, all as lengths, to a part of the tolerance.
   bool is_converged(const Problem& problem) const noexcept {
-    const Scalar small = accuracy_ / 4;
+    const Scalar negligible = accuracy_ / 4;
     Vector6<Scalar> residual = dual_residual_;  // without the rows that do not touch
     for (int k = 0; k < row_count_; ++k) {
-      if (!(primal_residual_[at(k)] > -small)) return false;
-      if (slacks_[at(k)] > small) residual += multipliers_[at(k)] * problem.rows[at(k)];
+      if (!(primal_residual_[at(k)] > -negligible)) return false;
+      if (slacks_[at(k)] > negligible) residual += multipliers_[at(k)] * problem.rows[at(k)];
     }
     const Vector6<Scalar> off = hessian_.solve(residual);
     for (int i = 0; i < 6; ++i) {
-      if (!(off[i] < small && -off[i] < small)) return false;
+      if (!(off[i] < negligible && -off[i] < negligible)) return false;
     }
     return true;
   }

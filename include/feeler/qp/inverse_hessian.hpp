@@ -93,7 +93,7 @@ class InverseHessian {
  private:
   const Scalar& entry(std::size_t i, std::size_t j) const noexcept { return hessian_[6 * j + i]; }
   static bool is_pivot(const Scalar& pivot) noexcept {
-    return pivot > Scalar(0) && pivot < std::numeric_limits<Scalar>::max();
+    return pivot > Scalar(0) && pivot < (std::numeric_limits<Scalar>::max)();
   }
 
   /// Whether all below the diagonal is 0; by the bits of the numbers where that is cheaper.
@@ -126,7 +126,7 @@ class InverseHessian {
   }
 
   bool invert_diagonal() noexcept {
-    constexpr int lanes = std::min(lanes_of<Scalar>, 2);
+    constexpr int lanes = (std::min)(lanes_of<Scalar>, 2);
     using Group = Lanes<Scalar, lanes>;
     auto is_definite = Group{} <= Group{};
 #pragma GCC unroll 6
@@ -135,7 +135,7 @@ class InverseHessian {
       if constexpr (lanes == 1) pivots = entry(j, j);
       else pivots = Group{entry(j, j), entry(j + 1, j + 1)};
       is_definite &= Group{} < pivots;
-      is_definite &= pivots < spread<Group>(std::numeric_limits<Scalar>::max());
+      is_definite &= pivots < spread<Group>((std::numeric_limits<Scalar>::max)());
       store(&d_inverse_[j], Group(spread<Group>(Scalar(1)) / pivots));
     }
     return in_all_lanes<Scalar, lanes>(is_definite);

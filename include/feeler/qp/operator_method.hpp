@@ -76,7 +76,7 @@ class OperatorMethod {
   Outcome run_with_care(const Problem& problem, Solution& solution) noexcept {
     is_careful_ = true;
     const Scalar smallest_angle = 128 * std::numeric_limits<Scalar>::epsilon();
-    Scalar rounding = std::min(rounding_at(x_), rounding_at(inverse_->inverse_times(*gradient_)));
+    Scalar rounding = (std::min)(rounding_at(x_), rounding_at(inverse_->inverse_times(*gradient_)));
     for (const double coarseness : {1.0, 1.0, 30.0, 1e6}) {
       relax_bounds(problem, rounding);
       dependent_angle_ = Scalar(coarseness) * smallest_angle;
@@ -222,7 +222,7 @@ class OperatorMethod {
     Scalar beside(0);
     for (int i = 0; i < rows_.size(); ++i) {
       lacking[index(i)] = bounds_[rows_[i]] - dot(operators_.normal(i), x_);
-      beside = std::max(beside, magnitude(lacking[index(i)]));
+      beside = (std::max)(beside, magnitude(lacking[index(i)]));
       subtract(operators_.normal(i), Scalar(-multipliers_[index(i)]), force);
     }
     if (!look(problem).is_off(*inverse_, *gradient_, x_, rows_, multipliers_, force, lacking, beside, residual)) return false;
@@ -307,7 +307,7 @@ class OperatorMethod {
       rest = a;
       for (int i = 0; i < rows_.size(); ++i) {
         Scalar& share = shares[index(i)];
-        share = std::min(Scalar(share + operators_.image().share[index(i)]), Scalar(0));
+        share = (std::min)(Scalar(share + operators_.image().share[index(i)]), Scalar(0));
         subtract(operators_.normal(i), share, rest);
       }
       is_sum = !(size_of(rest) > allowed_rest(a));

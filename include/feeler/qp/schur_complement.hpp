@@ -96,7 +96,7 @@ class SchurComplement {
   using Number = std::integral_constant<std::size_t, i>;
   using Group = typename Rows::Group;
   static constexpr int lanes = Rows::lanes;
-  static constexpr std::size_t width = lanes, most = std::min(Rows::capacity, 6), groups = Rows::groups;
+  static constexpr std::size_t width = lanes, most = (std::min)(Rows::capacity, 6), groups = Rows::groups;
 
   /// Share of a row that has to be its own.
   static constexpr double independent = 1e-3;

@@ -78,8 +78,8 @@ inline Scalar magnitude(const Scalar& value) noexcept {
 /// The largest |vⱼ| of the first six.
 template <class Scalar, std::size_t size>
 [[gnu::always_inline]] inline Scalar largest_of(const std::array<Scalar, size>& v) noexcept {
-  const auto larger = [&v](std::size_t j) { return std::max(magnitude(v[j]), magnitude(v[j + 1])); };
-  return std::max(std::max(larger(0), larger(2)), larger(4));
+  const auto larger = [&v](std::size_t j) { return (std::max)(magnitude(v[j]), magnitude(v[j + 1])); };
+  return (std::max)((std::max)(larger(0), larger(2)), larger(4));
 }
 /// Σ |vⱼ|
 template <class Scalar>

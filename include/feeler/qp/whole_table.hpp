@@ -57,7 +57,7 @@ class WholeTable {
   void leave(int row, const Scalar& inverse_pivot, const Scalar& scale) noexcept { exchange(row, inverse_pivot, scale); }
 
  private:
-  static constexpr int half = std::max(lanes, capacity / 2);
+  static constexpr int half = (std::max)(lanes, capacity / 2);
 
   Values& at(int row) noexcept { return columns_[std::size_t(row)]; }
 

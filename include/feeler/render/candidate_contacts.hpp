@@ -46,7 +46,7 @@ class CandidateContactsFollower {
     certificate_.clear();
   }
 
-  Status follow(const Scene& scene, const Pose<Scalar>& target, Tick<MeshScalar>& tick) noexcept {
+  TickStatus follow(const Scene& scene, const Pose<Scalar>& target, Tick<MeshScalar>& tick) noexcept {
     start_ = pose_;
     reach_ = 2 * scene.length_of(motion_between(target_, target)) + scene.trust_radius();
     target_ = target;
@@ -58,7 +58,7 @@ class CandidateContactsFollower {
     if constexpr (options.is_certified()) {
       const bool has_arrived = follow_certified(scene, tick);
       regions_.keep_in_contact(scene, pose_, active_);
-      return has_arrived ? Status::converged : Status::unconverged;
+      return has_arrived ? TickStatus::converged : TickStatus::unconverged;
     } else {
       ++tick.iterations;
       regions_.find(scene, pose_, target_, reach_, dropped_);
@@ -71,7 +71,7 @@ class CandidateContactsFollower {
         regions_.keep_in_contact(scene, pose_, active_);
       }
       tick.path.push_back(scene.tool_pose(pose_));
-      return Status::unverified;
+      return TickStatus::unverified;
     }
   }
 
@@ -114,7 +114,7 @@ class CandidateContactsFollower {
     requires(options.is_certified())
   {
     constexpr Scalar resting = Scalar(1e-11);
-    const int maximum_iterations = std::min(scene.settings().maximum_iterations, Tick<MeshScalar>::path_capacity);
+    const int maximum_iterations = (std::min)(scene.settings().maximum_iterations, Tick<MeshScalar>::path_capacity);
     trust_ = regions_.empty() ? std::numeric_limits<Scalar>::infinity() : scene.trust_radius();
     while (tick.iterations < maximum_iterations && tick.work < scene.settings().work_budget) {
       ++tick.iterations;
@@ -153,7 +153,7 @@ class CandidateContactsFollower {
         tick.path.push_back(scene.tool_pose(pose_));
         if (is_whole && (is_home || best.length < Scalar(scene.settings().step_tolerance))) return true;
       }
-      trust_ = best.is_there ? std::min(2 * trust_, scene.trust_radius()) : std::min(trust_, best.length) / 4;
+      trust_ = best.is_there ? (std::min)(2 * trust_, scene.trust_radius()) : (std::min)(trust_, best.length) / 4;
       if (trust_ < resting) break;
     }
     return false;

@@ -41,7 +41,7 @@ class ClosestFeaturesFollower {
     limits_.reset(scene.trust_radius());
   }
 
-  Status follow(const Scene& scene, const Pose<Scalar>& target, Tick<MeshScalar>& tick) noexcept {
+  TickStatus follow(const Scene& scene, const Pose<Scalar>& target, Tick<MeshScalar>& tick) noexcept {
     target_ = target;
     turn_idly(scene, tick);
     off_ = off_target(scene, pose_);
@@ -54,7 +54,7 @@ class ClosestFeaturesFollower {
     goes_on_ = !advance(scene, tick);
     budget_.end_tick(tick.work, tick.path.size() > idle_legs);
     turn_idly(scene, tick);
-    return goes_on_ ? Status::unconverged : Status::converged;
+    return goes_on_ ? TickStatus::unconverged : TickStatus::converged;
   }
 
   /// The active rows of the last optimisation.
@@ -126,7 +126,7 @@ class ClosestFeaturesFollower {
   bool advance(const Scene& scene, Tick<MeshScalar>& tick) noexcept {
     const Scalar resting = Scalar(scene.settings().step_tolerance) / 500000;
     const int maximum_iterations =
-        std::min(scene.settings().maximum_iterations, Tick<MeshScalar>::path_capacity - IdleTurns<typename Scene::Tool>::legs);
+        (std::min)(scene.settings().maximum_iterations, Tick<MeshScalar>::path_capacity - IdleTurns<typename Scene::Tool>::legs);
     const auto& turns = scene.idle_turns();
     bool came_to_nothing = false, is_taken_back = false;
     int known_pairs = 0;
@@ -153,7 +153,7 @@ class ClosestFeaturesFollower {
       const bool is_nearer = descends(scene, off_at_end, proposal.restoration);
       came_to_nothing = false;
       if (!is_nearer) {
-        limits_.narrow(std::min(limits_.trust(), length) / 4);
+        limits_.narrow((std::min)(limits_.trust(), length) / 4);
         continue;
       }
       const int proposed = tick.work;
@@ -185,7 +185,7 @@ class ClosestFeaturesFollower {
         } else if (linearisation_.admit(scene, result)) {
           limits_.narrow_to_radius();
         } else {
-          limits_.narrow(std::min(limits_.trust(), length) * std::clamp(result.time, Scalar(1) / 4, Scalar(1) / 2));
+          limits_.narrow((std::min)(limits_.trust(), length) * std::clamp(result.time, Scalar(1) / 4, Scalar(1) / 2));
         }
       }
     } while (tick.iterations < maximum_iterations && budget_.allows_another(tick.work) && !(limits_.trust() < resting));
@@ -223,7 +223,7 @@ class ClosestFeaturesFollower {
                                linearise(scene, pose, round == 0, rounds > 1, assumes_valleys, tick);
       const Twist<Scalar> off = round == 0 ? off_ : off_target(scene, pose);
       solve(scene, pose, off, proposal.is_capped, tick);
-      if (round == 0) proposal.restoration = std::max(problem.worth_of_margin(), Scalar(0));
+      if (round == 0) proposal.restoration = (std::max)(problem.worth_of_margin(), Scalar(0));
       Leg leg = leg_of(scene, pose, solved_step());
       if (round > 0) keep_contacts(scene, pose, off, proposal.is_capped, leg, tick);
       if (previous > very_short(scene) && !proposal.is_capped && reconcile(scene, off, tick)) {

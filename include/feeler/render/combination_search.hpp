@@ -132,7 +132,7 @@ class CombinationSearch {
       const Coordinates coordinates(pose);
       load(scene, coordinates, pose);
       if (is_capped) problem_.gradient.setZero();  // the smallest step that meets the rows
-      tick.rows = std::max(tick.rows, problem_.row_count);
+      tick.rows = (std::max)(tick.rows, problem_.row_count);
       QpStatus status = solver_.solve(problem_, qp_solution_);
       if (options.is_certified() && status == QpStatus::infeasible) {
         relax(scene, pose);
@@ -189,8 +189,8 @@ class CombinationSearch {
       const Vector6<Scalar> last = coordinates.of(reach_.start), goal = coordinates.of(reach_.target);
       for (int k = 0; k < 6; ++k) {
         const Vector6<Scalar> axis = Vector6<Scalar>::Unit(k);
-        problem_.add_row(axis, std::min(last[k], goal[k]));
-        problem_.add_row(-axis, -std::max(last[k], goal[k]));
+        problem_.add_row(axis, (std::min)(last[k], goal[k]));
+        problem_.add_row(-axis, -(std::max)(last[k], goal[k]));
       }
     }
   }
@@ -199,9 +199,9 @@ class CombinationSearch {
   void relax(const Scene& scene, const Pose<Scalar>& pose) noexcept {
     for (int i = 0; i < constraints_.size() && i < problem_.row_count; ++i) {
       const CandidateConstraint& constraint = constraints_[i].constraint;
-      const Scalar certified = std::max(row_at(scene, constraint, reach_.pose).gap, Scalar(0));
-      const Scalar wanted = std::min(scene.margin(), certified) - row_at(scene, constraint, pose).gap;
-      problem_.bounds[index(i)] = std::min(problem_.bounds[index(i)], wanted);
+      const Scalar certified = (std::max)(row_at(scene, constraint, reach_.pose).gap, Scalar(0));
+      const Scalar wanted = (std::min)(scene.margin(), certified) - row_at(scene, constraint, pose).gap;
+      problem_.bounds[index(i)] = (std::min)(problem_.bounds[index(i)], wanted);
     }
   }
 
@@ -220,7 +220,7 @@ class CombinationSearch {
       for (int k = 0; k < 6; ++k) {
         // Coordinates that meet to rounding, as both angles of a tool that does not turn, are no reason to refuse.
         constexpr Scalar slack = Scalar(1e-9);
-        if (reached[k] < std::min(Scalar(0), goal[k]) - slack || reached[k] > std::max(Scalar(0), goal[k]) + slack) return false;
+        if (reached[k] < (std::min)(Scalar(0), goal[k]) - slack || reached[k] > (std::max)(Scalar(0), goal[k]) + slack) return false;
       }
     }
     return true;

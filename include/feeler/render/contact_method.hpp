@@ -21,7 +21,7 @@ concept ContactMethod =
     requires(typename Method::template Follower<Tool, Solver>& follower, const RenderedScene<Tool>& scene,
              const Pose<typename RenderedScene<Tool>::Scalar>& pose, Tick<typename Tool::Scalar>& tick) {
       { follower.reset(scene, pose) } noexcept;
-      { follower.follow(scene, pose, tick) } noexcept -> std::same_as<Status>;
+      { follower.follow(scene, pose, tick) } noexcept -> std::same_as<TickStatus>;
       { follower.pose() } noexcept -> std::convertible_to<Pose<typename RenderedScene<Tool>::Scalar>>;
       { follower.report(scene, tick) } noexcept;
     };

@@ -50,7 +50,7 @@ class FoldDetector {
   /// To be called after each tick.
   /// @return  the fold that ended with this tick, or null; valid until the next call
   const Fold<Scalar>* observe(const Pose<Scalar>& haptic_pose, const Tick<Scalar>& tick) noexcept {
-    if (tick.status != Status::converged && tick.status != Status::unconverged) return nullptr;
+    if (tick.status != TickStatus::converged && tick.status != TickStatus::unconverged) return nullptr;
     if (has_ended_) begin();
     device_way_ += length(haptic_, haptic_pose);
     haptic_ = haptic_pose;

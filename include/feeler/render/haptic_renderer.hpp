@@ -43,9 +43,9 @@ class HapticRenderer {
   /// The metric in which the graphic pose is the nearest.
   const Metric<Working>& metric() const noexcept { return scene_.metric(); }
 
-  /// Puts the graphic tool at a pose; `Status::penetrating` if it would overlap the object there, and then the renderer holds no pose.
+  /// Puts the graphic tool at a pose; `TickStatus::penetrating` if it would overlap the object there, and then the renderer holds no pose.
   /// @cost  not bounded by the work budget: for use outside the loop
-  Status reset(const Pose<Scalar>& pose) noexcept;
+  TickStatus reset(const Pose<Scalar>& pose) noexcept;
 
   /// One tick. The result stays valid until the next call.
   /// @param haptic_pose  pose of the tool frame that the device commands; its quaternion need not be unit
@@ -76,24 +76,24 @@ HapticRenderer<ToolType, Solver, Method>::HapticRenderer(const TriangleMesh<Scal
     : scene_(object, tool, settings) {}
 
 template <RigidTool ToolType, QpSolver Solver, ContactMethod<ToolType, Solver> Method>
-Status HapticRenderer<ToolType, Solver, Method>::reset(const Pose<Scalar>& pose) noexcept {
+TickStatus HapticRenderer<ToolType, Solver, Method>::reset(const Pose<Scalar>& pose) noexcept {
   is_reset_ = false;
   tick_ = {};
-  if (!pose.is_finite()) return tick_.status = Status::not_finite;
+  if (!pose.is_finite()) return tick_.status = TickStatus::not_finite;
   tick_.graphic_pose = pose.normalized();
   const Pose<Working> reference_pose = scene_.reference_pose(pose);
-  if (!is_free_at(reference_pose)) return tick_.status = Status::penetrating;
+  if (!is_free_at(reference_pose)) return tick_.status = TickStatus::penetrating;
   follower_.reset(scene_, reference_pose);
   tick_.graphic_pose = scene_.tool_pose(reference_pose);  // to the last bit what ticks that do not move give
   is_reset_ = true;
-  return tick_.status = Status::converged;
+  return tick_.status = TickStatus::converged;
 }
 
 template <RigidTool ToolType, QpSolver Solver, ContactMethod<ToolType, Solver> Method>
 const Tick<typename ToolType::Scalar>& HapticRenderer<ToolType, Solver, Method>::update(const Pose<Scalar>& haptic_pose) noexcept {
   if (!haptic_pose.is_finite()) {
     tick_.path.clear();
-    tick_.status = Status::not_finite;
+    tick_.status = TickStatus::not_finite;
     return tick_;
   }
   if (!is_reset_) {
@@ -113,7 +113,7 @@ template <RigidTool ToolType, QpSolver Solver, ContactMethod<ToolType, Solver> M
 bool HapticRenderer<ToolType, Solver, Method>::is_free_at(const Pose<Working>& pose) const noexcept {
   int work = 0;
   MotionCertificate<Tool> certificate;
-  return certificate.certify(scene_, pose, {}, work, std::numeric_limits<int>::max()).blockers.empty();
+  return certificate.certify(scene_, pose, {}, work, (std::numeric_limits<int>::max)()).blockers.empty();
 }
 
 template <RigidTool ToolType, QpSolver Solver, ContactMethod<ToolType, Solver> Method>

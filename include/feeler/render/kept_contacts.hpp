@@ -35,7 +35,7 @@ class KeptContacts {
   bool keep_broken(const SoFar& so_far, const Displacement<Scalar>& whole, Scalar margin, Problem& problem) noexcept {
     bool breaks_any = false;
     for (Contact& contact : contacts_) {
-      const Scalar enough = std::min(margin, contact.row.gap) / 10;
+      const Scalar enough = (std::min)(margin, contact.row.gap) / 10;
       if (contact.is_in_problem || !(carried_gap(contact.row, whole) < enough)) continue;
       contact.is_in_problem = problem.keep(contact.row.carried(so_far()), contact.certified_gap);
       breaks_any = breaks_any || contact.is_in_problem;

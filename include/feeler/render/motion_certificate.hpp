@@ -61,7 +61,7 @@ class MotionCertificate {
         }
         for (Blocker<Scalar> blocker : passed.blockers) {
           blocker.piece = piece;
-          first_blocked = std::min(first_blocked, blocker.time);
+          first_blocked = (std::min)(first_blocked, blocker.time);
           result.add(blocker);
         }
         if (passed.is_exhausted) {
@@ -69,12 +69,12 @@ class MotionCertificate {
           result.time = Scalar(0);
           break;
         }
-        result.time = std::min(result.time, passed.time);
+        result.time = (std::min)(result.time, passed.time);
         if (passed.blockers.empty()) {
           until = passed.time;
           continue;
         }
-        until = std::min(until, worth_certifying(result.time, scene.clearance(), moving));
+        until = (std::min)(until, worth_certifying(result.time, scene.clearance(), moving));
       }
       return result;
     }
@@ -136,7 +136,7 @@ class MotionCertificate {
     // nearest, because the core stays a radius away.
     if constexpr (SweptTool<Piece>) {
       for (int i = 0; i < pairs.size(); ++i) {
-        if (pairs[i].piece == piece) clearance.kept = std::min(clearance.kept, clearance.required(pairs[i].slack));
+        if (pairs[i].piece == piece) clearance.kept = (std::min)(clearance.kept, clearance.required(pairs[i].slack));
       }
     }
     // Without clearance all walls touch, and the certificate tells which of them hold.

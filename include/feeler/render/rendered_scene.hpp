@@ -56,18 +56,18 @@ class RenderedScene {
     for (int i = 0; i < piece_count(); ++i) {
       incidences_[index(i)] = incidence_of(piece(i));
       radii_[index(i)] = radius_about(piece(i), reference_);
-      radius_ = std::max(radius_, radii_[index(i)]);
-      surface = std::max(surface, radii_[index(i)] + swept_radius(piece(i)));
+      radius_ = (std::max)(radius_, radii_[index(i)]);
+      surface = (std::max)(surface, radii_[index(i)] + swept_radius(piece(i)));
     }
-    const Scalar size = std::max(surface, Scalar(object.bounds().diagonal().norm()));
+    const Scalar size = (std::max)(surface, Scalar(object.bounds().diagonal().norm()));
     const Scalar rounding = 256 * std::numeric_limits<Scalar>::epsilon() * size;
-    clearance_.allowance = std::max(clearance_.allowance, rounding);
+    clearance_.allowance = (std::max)(clearance_.allowance, rounding);
     const Scalar least_margin = 20 * clearance_.allowance;
-    if (!(Scalar(settings.margin) >= least_margin && settings.margin <= std::numeric_limits<MeshScalar>::max()))
+    if (!(Scalar(settings.margin) >= least_margin && settings.margin <= (std::numeric_limits<MeshScalar>::max)()))
       refuse("HapticRenderer: Settings::margin is not a length of at least " + std::to_string(long(double(least_margin) * 1e12 + 0.5)) +
              " pm; with less, rounding can carry the tool through a surface; leave the default of 1 µm if in doubt");
     clearance_.rounding = rounding_of_poses(object.bounds(), surface + reference_.norm());
-    margin_ = std::max(Scalar(settings.margin), 10 * clearance_.rounding);
+    margin_ = (std::max)(Scalar(settings.margin), 10 * clearance_.rounding);
     clearance_.kept = margin_ / 10;
     clearance_.noticed = margin_ - margin_ / 1000;  // what rests at the margin is far enough
     clearance_.touching = touching_distance(radius_);
@@ -98,7 +98,7 @@ class RenderedScene {
   Clearance<Scalar> clearance_for(const MovingTool<Moved>& moving) const noexcept {
     const Scalar rounding = 8 * std::numeric_limits<Scalar>::epsilon() * (moving.origin().norm() + moving.length());
     Clearance<Scalar> clearance = clearance_;
-    clearance.kept = std::max(clearance.kept, rounding);
+    clearance.kept = (std::max)(clearance.kept, rounding);
     return clearance;
   }
   /// `Settings::margin`, or more where the poses that are returned have not the digits for it [m].
@@ -164,7 +164,7 @@ class RenderedScene {
       return Scalar(0);
     } else {
       const Scalar unit = Scalar(std::numeric_limits<MeshScalar>::epsilon()) / 2;
-      const Vector3<Scalar> farthest = object.min().cwiseAbs().cwiseMax(object.max().cwiseAbs()).template cast<Scalar>();
+      const Vector3<Scalar> farthest = (object.min)().cwiseAbs().cwiseMax((object.max)().cwiseAbs()).template cast<Scalar>();
       return unit * (farthest.norm() + reach) + 4 * unit * reach;  // a quaternion off by δ turns by 2 δ, and stretches by as much
     }
   }

@@ -25,7 +25,7 @@ class StepLimits {
   void carry_over() noexcept {
     const Scalar least = radius_ / 4000;
     trust_ = std::clamp(trust_, least, is_long_slide() ? 3 * radius_ / 2 : radius_);
-    flight_ = std::max(flight_, least);
+    flight_ = (std::max)(flight_, least);
   }
 
   /// Longest motion near the object [m].
@@ -39,7 +39,7 @@ class StepLimits {
   void widen(int work) noexcept {
     const bool fills_radius = trust_ >= radius_;
     if (fills_radius) unhindered_ += work <= work_with_little_near ? long_slide : 1;
-    trust_ = std::min(2 * trust_, fills_radius && is_long_slide() ? 8 * radius_ : std::max(trust_, radius_));
+    trust_ = (std::min)(2 * trust_, fills_radius && is_long_slide() ? 8 * radius_ : (std::max)(trust_, radius_));
     flight_ *= 2;
   }
   /// After one that was too long.
@@ -48,7 +48,7 @@ class StepLimits {
     unhindered_ = 0;
   }
   /// After one that met something new: what is known of it holds within the radius.
-  void narrow_to_radius() noexcept { narrow(std::min(trust_, radius_)); }
+  void narrow_to_radius() noexcept { narrow((std::min)(trust_, radius_)); }
   /// After one that took more work to certify than there was.
   void shorten(bool is_in_flight, Scalar length) noexcept { (is_in_flight ? flight_ : trust_) = length; }
 

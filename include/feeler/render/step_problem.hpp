@@ -177,8 +177,8 @@ class StepProblem {
     for (const auto& active : solution_.active) {
       const auto before = std::find_if(other.active.begin(), other.active.end(), [&active](const auto& a) { return a.row == active.row; });
       if (before == other.active.end()) return false;
-      largest = std::max(largest, active.multiplier);
-      change = std::max({change, active.multiplier - before->multiplier, before->multiplier - active.multiplier});
+      largest = (std::max)(largest, active.multiplier);
+      change = (std::max)({change, active.multiplier - before->multiplier, before->multiplier - active.multiplier});
     }
     return solution_.active.size() == other.active.size() && 8 * change <= largest;
   }
@@ -198,7 +198,7 @@ class StepProblem {
       const bool yields = standing.is_spare && !(standing.certified_gap > Scalar(0));
       const Scalar soft = margin - row.gap - (yields ? picometre : Scalar(0));
       problem_.add_row(row.gradient(), soft);
-      elastic_.add(soft, (yields ? -picometre : std::min(standing.certified_gap, margin / 5)) - row.gap);
+      elastic_.add(soft, (yields ? -picometre : (std::min)(standing.certified_gap, margin / 5)) - row.gap);
     }
   }
 
@@ -214,7 +214,7 @@ class StepProblem {
     if (solves_ > 0) return;
     solves_ = 1;
     // Rounding or curvature may leave a row short of its hard bound by a hair: stay where rows allow it.
-    for (int k = 0; k < problem_.row_count; ++k) problem_.bounds[index(k)] = std::min(problem_.bounds[index(k)], Scalar(0));
+    for (int k = 0; k < problem_.row_count; ++k) problem_.bounds[index(k)] = (std::min)(problem_.bounds[index(k)], Scalar(0));
     if (solver_.solve(problem_, solution_) != QpStatus::optimal) {
       solution_.step.setZero();
       solution_.active.clear();

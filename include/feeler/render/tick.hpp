@@ -32,7 +32,7 @@ struct Tick {
   Pose<Scalar> graphic_pose;
   Wrench<Scalar> wrench;  ///< on the hand, world axes, at the reference point of the haptic pose
   FixedVector<ActiveContact<Scalar>, contact_capacity> contacts;
-  Status status = Status::not_reset;
+  TickStatus status = TickStatus::not_reset;
 
   /// The way from the last graphic pose to this one, which is its last pose: between poses the reference point moves on a straight line and
   /// the axes turn at a constant rate, by 3 rad at most and so the shorter way round, free of collision all along. Empty when the tool did not
@@ -43,7 +43,7 @@ struct Tick {
   int rows = 0;        ///< rows of the last optimisation
   int work = 0;        ///< in the unit of `Settings::work_budget`
 
-  bool converged() const noexcept { return status == Status::converged; }
+  bool converged() const noexcept { return status == TickStatus::converged; }
 };
 
 }  // namespace feeler

@@ -17,7 +17,7 @@ class WorkBudget {
   /// @param budget  of every tick
   void begin_tick(int budget) noexcept {
     allowed_ = budget;
-    for (int i = 0; i < patience_; ++i) allowed_ += std::max(allowed_ / 2, least_growth);
+    for (int i = 0; i < patience_; ++i) allowed_ += (std::max)(allowed_ / 2, least_growth);
     begun_ = 0;
     iterations_ = 0;
   }
@@ -38,7 +38,7 @@ class WorkBudget {
   }
   /// Work at which a certificate gives up. The first of a tick has half a budget at least.
   int limit_of_certificate(int work) const noexcept {
-    return std::max(work + allowed_ / (is_first_iteration() ? 2 : 8), allowed_);
+    return (std::max)(work + allowed_ / (is_first_iteration() ? 2 : 8), allowed_);
   }
   /// Lets the budget grow when it ran out before the tool moved, or before a second iteration, in some ticks in a row; and shrink where less
   /// would do.
@@ -46,8 +46,8 @@ class WorkBudget {
     constexpr int most_patience = 7, most_starved = 1;
     const bool is_starved = is_spent(work) && (!has_moved || iterations_ < 2);
     starved_ = is_starved ? starved_ + 1 : 0;
-    if (starved_ > most_starved) patience_ = std::min(patience_ + 1, most_patience);
-    if (work < allowed_ / 2) patience_ = std::max(patience_ - 1, 0);
+    if (starved_ > most_starved) patience_ = (std::min)(patience_ + 1, most_patience);
+    if (work < allowed_ / 2) patience_ = (std::max)(patience_ - 1, 0);
   }
 
  private:

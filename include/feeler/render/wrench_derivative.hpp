@@ -105,7 +105,7 @@ class PushingRows {
       shares_.push_back(
           {active.row, unit.cwiseProduct(problem.row(active.row).gradient()), active.multiplier});
       pull += active.multiplier * shares_.back().gradient;
-      most = std::max(most, active.multiplier);
+      most = (std::max)(most, active.multiplier);
     }
     const auto of_solver = shares_;
     for (int k = 0; k < problem.row_count() && !shares_.empty() && !shares_.full(); ++k) {
@@ -179,7 +179,7 @@ noexcept {
   using Scalar = typename HapticRenderer<Tool, Solver, Method>::Working;
   WrenchDerivative<Scalar> result;
   const auto status = renderer.tick().status;
-  if (status != Status::converged && status != Status::unconverged) return result;
+  if (status != TickStatus::converged && status != TickStatus::unconverged) return result;
 
   const auto& settings = renderer.settings();
   const Metric<Scalar>& metric = renderer.metric();
@@ -225,9 +225,10 @@ noexcept {
     return Matrix6<Scalar>(unit.asDiagonal() * m * unit.asDiagonal());
   };
   Eigen::LLT<Matrix6<Scalar>> factor(along * scaled(hessian - curvature) * along + across);
-  result.is_smooth = factor.info() == Eigen::Success && status == Status::converged && !pushing.has_idle();
-  if (factor.info() != Eigen::Success) factor.compute(along * scaled(hessian) * along + across);
-  if (factor.info() != Eigen::Success)
+  constexpr Eigen::ComputationInfo success{};  // the enumerator's name is a macro of X11
+  result.is_smooth = factor.info() == success && status == TickStatus::converged && !pushing.has_idle();
+  if (factor.info() != success) factor.compute(along * scaled(hessian) * along + across);
+  if (factor.info() != success)
     factor.compute(Matrix6<Scalar>::Identity());  // turned by π: as if in flat space
   const Matrix6<Scalar> answer = unit.asDiagonal() *
                                  Matrix6<Scalar>(along * factor.solve(along * scaled(mixed))) *

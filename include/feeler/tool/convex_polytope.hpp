@@ -131,7 +131,7 @@ class ConvexPolytope {
       const Working size = (sides / side).norm() + wide.cwiseAbs().maxCoeff() / side;
       tolerance = static_cast<long double>(
           ldexp(Working(4 * Working(std::numeric_limits<Scalar>::epsilon()) * size), detail::lattice_bits));
-      tolerance = std::max(tolerance, 4.0L);
+      tolerance = (std::max)(tolerance, 4.0L);
     }
 
     /// Four points far apart: the ends of the longest axis, the point farthest from their line, the point

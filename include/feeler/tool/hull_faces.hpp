@@ -130,7 +130,7 @@ class HullFaces {
       const std::array<long double, 3> v = difference(face.corners[(i + 1) % n], face.corners[(i + 2) % n]);
       const std::array<long double, 3> cross{u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2],
                                              u[0] * v[1] - u[1] * v[0]};
-      const long double longest = std::sqrt(std::max(dot(u.data(), u.data()), dot(v.data(), v.data())));
+      const long double longest = std::sqrt((std::max)(dot(u.data(), u.data()), dot(v.data(), v.data())));
       if (dot(cross.data(), face.normal.data()) < -tolerance_ * longest * length) return false;
     }
     return n >= 3;

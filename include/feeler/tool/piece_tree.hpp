@@ -75,8 +75,8 @@ class PieceTree {
       centres.upper = centres.upper.cwiseMax(piece.centre());
     }
     // Wider than rounding needs, and never flat.
-    const Scalar size = std::max(all.lower.cwiseAbs().maxCoeff(), all.upper.cwiseAbs().maxCoeff());
-    const Scalar width = std::max(size * Scalar(1e-6), std::numeric_limits<Scalar>::min());
+    const Scalar size = (std::max)(all.lower.cwiseAbs().maxCoeff(), all.upper.cwiseAbs().maxCoeff());
+    const Scalar width = (std::max)(size * Scalar(1e-6), (std::numeric_limits<Scalar>::min)());
     const Vector3<Scalar> half = ((all.upper - all.lower) / 2).array() + width;
     const bool is_single = pieces.size() == 1;
     nodes_.push_back({int(pieces.size()), is_single ? all.piece : group_count_++, all.centre(), Box<Scalar>(half)});

@@ -25,7 +25,7 @@ class SupportBlocks {
     for (int i = 0; i < int(points.rows()); ++i) points_.push_back(points.row(i));
     for (int i = 0; i < block_count_ * block_size; i += block_size)
       for (int k = 0; k < 3; ++k)
-        for (int j = i; j < i + block_size; ++j) coordinates_.push_back(points_[std::size_t(std::min(j, count() - 1))][k]);
+        for (int j = i; j < i + block_size; ++j) coordinates_.push_back(points_[std::size_t((std::min)(j, count() - 1))][k]);
   }
 
   int count() const noexcept { return int(points_.size()); }
@@ -56,7 +56,7 @@ class SupportBlocks {
   /// max direction · point: the support function of their hull.
   Scalar highest(const Vector3<Scalar>& direction) const noexcept {
     Block best = heights(0, direction);
-    for (int b = 1; b < block_count_; ++b) best = best.max(heights(b, direction));
+    for (int b = 1; b < block_count_; ++b) best = (best.max)(heights(b, direction));
     return best.maxCoeff();
   }
 

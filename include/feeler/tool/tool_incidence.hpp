@@ -17,7 +17,7 @@ FeatureIncidence incidence_of(const Tool& tool) {
   std::vector<std::array<int, 2>> edges;
   std::vector<std::pair<int, int>> edge_faces, vertex_faces;
   for (int e = 0; e < tool.edge_count(); ++e) edges.push_back({tool.edge(e).start, tool.edge(e).end});
-  const auto key = [](int a, int b) { return std::pair(std::min(a, b), std::max(a, b)); };
+  const auto key = [](int a, int b) { return std::pair((std::min)(a, b), (std::max)(a, b)); };
   std::vector<std::pair<std::pair<int, int>, int>> numbered;
   for (int e = 0; e < tool.edge_count(); ++e) numbered.emplace_back(key(edges[std::size_t(e)][0], edges[std::size_t(e)][1]), e);
   std::sort(numbered.begin(), numbered.end());

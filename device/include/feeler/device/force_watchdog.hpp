@@ -36,7 +36,7 @@ class ForceWatchdog {
   bool has_let_go() noexcept { return has_let_go_.exchange(false, std::memory_order_acq_rel); }
 
  private:
-  static constexpr std::int64_t never = std::numeric_limits<std::int64_t>::max();
+  static constexpr std::int64_t never = (std::numeric_limits<std::int64_t>::max)();
 
   void run(const RealTimeRequest& request);
 

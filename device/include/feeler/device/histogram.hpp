@@ -18,8 +18,8 @@ class Histogram {
   void add(std::int64_t nanoseconds) noexcept {
     const std::int64_t value = std::max<std::int64_t>(nanoseconds, 0);
     ++counts_[std::size_t(bin_of(value))];
-    minimum_ = count_ == 0 ? value : std::min(minimum_, value);
-    maximum_ = std::max(maximum_, value);
+    minimum_ = count_ == 0 ? value : (std::min)(minimum_, value);
+    maximum_ = (std::max)(maximum_, value);
     ++count_;
   }
 
@@ -36,7 +36,7 @@ class Histogram {
     std::int64_t seen = 0;
     for (int bin = 0; bin < bins; ++bin) {
       seen += counts_[std::size_t(bin)];
-      if (seen >= rank) return std::min(last_of(bin), maximum_);
+      if (seen >= rank) return (std::min)(last_of(bin), maximum_);
     }
     return maximum_;
   }
@@ -45,12 +45,12 @@ class Histogram {
 
   /// The bin of a value [ns]; the values of bin i are last_of(i − 1) + 1 … last_of(i).
   static constexpr int bin_of(std::int64_t value) noexcept {
-    const int shift = std::max(0, int(std::bit_width(std::uint64_t(value))) - 6);
+    const int shift = (std::max)(0, int(std::bit_width(std::uint64_t(value))) - 6);
     return 32 * shift + int(value >> shift);
   }
   /// The largest value of a bin [ns].
   static constexpr std::int64_t last_of(int bin) noexcept {
-    const int shift = std::max(0, bin / 32 - 1);
+    const int shift = (std::max)(0, bin / 32 - 1);
     const std::uint64_t next = std::uint64_t(bin - 32 * shift + 1) << shift;
     return std::int64_t(next - 1);
   }
