@@ -16,6 +16,7 @@
 #include "feeler/render/tick.hpp"
 #include "feeler/spatial/metric.hpp"
 #include "feeler/spatial/pose.hpp"
+#include "feeler/spatial/turned_stiffness.hpp"
 #include "feeler/spatial/twist.hpp"
 #include "feeler/spatial/wrench.hpp"
 #include "feeler/tool/box.hpp"

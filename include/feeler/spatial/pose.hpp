@@ -19,6 +19,13 @@ struct Pose {
   Vector3<Scalar> operator*(const Vector3<Scalar>& point_tool) const noexcept {
     return translation + rotation * point_tool;
   }
+  /// Of a frame that is given in this one: `world_from_tip = world_from_tool * tool_from_tip`.
+  Pose operator*(const Pose& inner) const noexcept { return {*this * inner.translation, rotation * inner.rotation}; }
+  /// Of the outer frame in this one, `tool_from_world`; the quaternion must be unit.
+  Pose inverse() const noexcept {
+    const Quaternion<Scalar> back = rotation.conjugate();
+    return {-(back * translation), back};
+  }
 
   /// False for a NaN, an infinity, a translation too long to be squared, or a quaternion that cannot be normalised.
   bool is_finite() const noexcept {

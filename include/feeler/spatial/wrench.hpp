@@ -14,6 +14,9 @@ struct Wrench {
   Vector3<Scalar> force = Vector3<Scalar>::Zero();
   Vector3<Scalar> torque = Vector3<Scalar>::Zero();
 
+  /// The same wrench with its torque at another point; both points in world axes [m].
+  Wrench moved(const Vector3<Scalar>& from, const Vector3<Scalar>& to) const noexcept { return {force, torque + (from - to).cross(force)}; }
+
   template <class Other>
   Wrench<Other> cast() const noexcept {
     return {force.template cast<Other>(), torque.template cast<Other>()};
