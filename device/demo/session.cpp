@@ -7,6 +7,7 @@
 #include <csignal>
 #include <cstdio>
 #include <memory>
+#include <string>
 #include <thread>
 #include <type_traits>
 
@@ -17,6 +18,7 @@
 #include "feeler/device/servo_loop.hpp"
 #include "feeler/device/workspace_map.hpp"
 #include "feeler/object/triangle_mesh.hpp"
+#include "feeler/render/unit_warning.hpp"
 #include "scenes/renderers.hpp"
 
 namespace feeler::demo {
@@ -133,6 +135,7 @@ Recording run(const scenes::Scene& scene, const Tool& tool, const SessionSetting
   }
 
   const TriangleMesh<double> object(scene.vertices, scene.triangles);
+  if (const std::string warning = unit_warning(object, tool); !warning.empty()) std::printf("  note: %s\n", warning.c_str());
   HapticRenderer renderer(object, tool, renderer_settings);
   if (renderer.reset(scene.start) != Status::converged) {
     throw BadInput(

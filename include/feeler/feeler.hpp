@@ -14,6 +14,7 @@
 #include "feeler/render/haptic_renderer.hpp"
 #include "feeler/render/settings.hpp"
 #include "feeler/render/tick.hpp"
+#include "feeler/render/unit_warning.hpp"
 #include "feeler/spatial/metric.hpp"
 #include "feeler/spatial/pose.hpp"
 #include "feeler/spatial/turned_stiffness.hpp"

@@ -367,6 +367,51 @@ BOOST_AUTO_TEST_CASE(bad_input_is_refused_with_a_sentence) {
   BOOST_TEST(contains(refusal([&] { Mesh(p, cube_triangles()); }), "vertex 3 has a NaN or an infinity"));
 }
 
+BOOST_AUTO_TEST_CASE(a_mesh_from_the_arrays_of_an_engine_is_that_from_matrices) {
+  std::vector<float> millimetres;
+  std::vector<unsigned> indices;
+  for (int i = 0; i < 8; ++i)
+    for (int k = 0; k < 3; ++k) millimetres.push_back(float(1000 * cube_points()(i, k)));
+  for (int i = 0; i < 12; ++i)
+    for (int k = 0; k < 3; ++k) indices.push_back(unsigned(cube_triangles()(i, k)));
+  const Mesh expected(cube_points(), cube_triangles()), mesh(millimetres.data(), 8, indices.data(), 12, 0.001);
+  BOOST_TEST(mesh.report().is_closed_manifold());
+  BOOST_TEST(mesh.triangle_count() == 12);
+  for (int i = 0; i < 12; ++i) BOOST_TEST((mesh.corners(i) == expected.corners(i)));
+  BOOST_TEST((Mesh(1000 * cube_points(), cube_triangles(), 0.001).corners(5) == expected.corners(5)));
+
+  const auto refused = [&](std::size_t vertex_count, std::size_t triangle_count) {
+    return refusal([&] { Mesh(millimetres.data(), vertex_count, indices.data(), triangle_count); });
+  };
+  BOOST_TEST(contains(refused(7, 12), "but there are 7 vertices"));
+  BOOST_TEST(contains(refused(8, std::size_t(-1)), "there may be 715827882 of each"));
+  BOOST_TEST(contains(refused(std::size_t(1) << 40, 12), "there may be 715827882 of each"));
+  BOOST_TEST(contains(refusal([&] { Mesh(millimetres.data(), 8, static_cast<const int*>(nullptr), 12); }), "null"));
+  indices[4] = 4294967295U;  // -1 once more
+  BOOST_TEST(contains(refused(8, 12), "triangle 1 has the index 4294967295, but there are 8 vertices"));
+  for (const double scale : {0.0, -1.0, std::nan(""), HUGE_VAL})
+    BOOST_TEST(contains(refusal([&] { Mesh(cube_points(), cube_triangles(), scale); }), "the scale is not a positive number"));
+  BOOST_TEST(contains(refusal([&] { Mesh(2 * cube_points(), cube_triangles(), 1e308); }), "vertex 1 has a NaN or an infinity"));
+}
+
+BOOST_AUTO_TEST_CASE(a_report_tells_the_size_and_warns_of_what_looks_like_millimetres) {
+  const Mesh small(0.05 * cube_points(), cube_triangles()), large(100 * cube_points(), cube_triangles());
+  BOOST_TEST((small.report().upper == std::array<double, 3>{0.05, 0.05, 0.05}));
+  BOOST_TEST(small.report().width() == 0.05);
+  BOOST_TEST(contains(to_string(small.report()), "a closed surface. It is 0.05 by 0.05 by 0.05 m."));
+  BOOST_TEST(!contains(to_string(small.report()), "millimetres"));
+  BOOST_TEST(contains(to_string(large.report()), "It is 100 by 100 by 100 m. If its numbers are millimetres, give the mesh the scale 0.001."));
+  BOOST_TEST(!contains(to_string(Mesh(100 * cube_points(), cube_triangles(), 0.001).report()), "millimetres"));
+}
+
+BOOST_AUTO_TEST_CASE(points_and_lines_alone_are_no_closed_surface) {
+  const auto p = points({{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {3, 0, 0}});
+  for (const auto& t : {rows({{0, 0, 0}}), rows({{0, 1, 1}}), rows({{0, 1, 1}, {2, 2, 3}}), rows({{0, 1, 2}, {0, 3, 1}, {1, 3, 2}, {2, 3, 0}})}) {
+    BOOST_TEST(!Mesh(p, t).report().is_closed_manifold());
+    BOOST_TEST(contains(to_string(Mesh(p, t).report()), "not a closed surface"));
+  }
+}
+
 BOOST_AUTO_TEST_CASE(float_and_long_double_meshes_have_the_same_topology) {
   const feeler::TriangleMesh<float> narrow(cube_points().cast<float>(), cube_triangles());
   const feeler::TriangleMesh<long double> wide(cube_points().cast<long double>(), cube_triangles());

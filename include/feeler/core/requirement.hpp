@@ -23,4 +23,9 @@ namespace feeler {
 #endif
 }
 
+/// The same where there is a reason, a sentence; not where it is empty.
+inline void refuse_for(const std::string& reason) {
+  if (!reason.empty()) refuse(reason);
+}
+
 }  // namespace feeler

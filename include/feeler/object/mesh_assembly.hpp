@@ -2,11 +2,14 @@
 #pragma once
 
 #include <algorithm>
+#include <concepts>
+#include <cstddef>
 #include <string>
 #include <vector>
 
 #include "feeler/core/requirement.hpp"
 #include "feeler/core/scalar.hpp"
+#include "feeler/object/given_mesh.hpp"
 #include "feeler/object/triangle_mesh.hpp"
 #include "feeler/spatial/pose.hpp"
 
@@ -19,28 +22,21 @@ class MeshAssembly {
  public:
   using Scalar = ScalarType;
 
-  /// Refuses an index out of range, as it could mean a vertex of another part.
-  /// @param vertices   n×3, in the frame of the part [m]
+  /// Refuses an index out of range, as it could mean a vertex of another part, and what is not finite.
+  /// @param vertices   n×3, in the frame of the part [m], or in the unit of the scale
   /// @param triangles  m×3, indices into `vertices`, counter-clockwise seen from outside
-  /// @param pose       of the part in the world
+  /// @param pose       of the part in the world [m]; its quaternion need not be unit
+  /// @param scale      metres a unit of `vertices`
   /// @return  its number
-  int add(const Points<Scalar>& vertices, const Triangles& triangles, const Pose<Scalar>& pose = {}) {
-    for (Eigen::Index i = 0; i < triangles.rows(); ++i) {
-      for (int k = 0; k < 3; ++k) {
-        if (triangles(i, k) >= 0 && triangles(i, k) < vertices.rows()) continue;
-        refuse("MeshAssembly: triangle " + std::to_string(i) + " of part " + std::to_string(part_count()) + " has the index " +
-               std::to_string(triangles(i, k)) + ", but the part has " + std::to_string(vertices.rows()) +
-               " vertices; indices start at 0 in each part and must be less than that");
-      }
-    }
-    const Eigen::Index first_vertex = vertices_.rows(), first_triangle = triangles_.rows();
-    const Matrix3<Scalar> axes = pose.rotation.normalized().toRotationMatrix();
-    vertices_.conservativeResize(first_vertex + vertices.rows(), 3);
-    vertices_.bottomRows(vertices.rows()) = (vertices * axes.transpose()).rowwise() + pose.translation.transpose();
-    triangles_.conservativeResize(first_triangle + triangles.rows(), 3);
-    triangles_.bottomRows(triangles.rows()) = triangles.array() + int(first_vertex);
-    first_triangles_.push_back(int(first_triangle));
-    return part_count() - 1;
+  int add(const Points<Scalar>& vertices, const Triangles& triangles, const Pose<Scalar>& pose = {}, Scalar scale = Scalar(1)) {
+    return add_rows(vertices, triangles, pose, scale);
+  }
+  /// The same from arrays as engines keep them; see `TriangleMesh`.
+  template <class Number, std::integral Index>
+  int add(const Number* vertices, std::size_t vertex_count, const Index* triangles, std::size_t triangle_count, const Pose<Scalar>& pose = {},
+          Scalar scale = Scalar(1)) {
+    refuse_for(detail::reason_against_arrays("MeshAssembly", vertices, vertex_count, triangles, triangle_count));
+    return add_rows(detail::rows_of_three(vertices, vertex_count), detail::rows_of_three(triangles, triangle_count), pose, scale);
   }
 
   int part_count() const noexcept { return int(first_triangles_.size()); }
@@ -58,6 +54,21 @@ class MeshAssembly {
   const Triangles& triangles() const noexcept { return triangles_; }
 
  private:
+  template <class VertexRows, class IndexRows>
+  int add_rows(const VertexRows& vertices, const IndexRows& triangles, const Pose<Scalar>& pose, Scalar scale) {
+    const Eigen::Index first_vertex = vertices_.rows(), first_triangle = triangles_.rows();
+    const std::string part = " of part " + std::to_string(part_count());
+    refuse_for(detail::reason_against_counts("MeshAssembly", std::size_t(first_vertex + vertices.rows()), std::size_t(first_triangle + triangles.rows())));
+    refuse_for(detail::reason_against_mesh("MeshAssembly", part, vertices, triangles, scale));
+    const Matrix3<Scalar> axes = pose.rotation.normalized().toRotationMatrix();
+    vertices_.conservativeResize(first_vertex + vertices.rows(), 3);
+    vertices_.bottomRows(vertices.rows()) = (vertices.template cast<Scalar>() * scale * axes.transpose()).rowwise() + pose.translation.transpose();
+    triangles_.conservativeResize(first_triangle + triangles.rows(), 3);
+    triangles_.bottomRows(triangles.rows()) = triangles.template cast<int>().array() + int(first_vertex);
+    first_triangles_.push_back(int(first_triangle));
+    return part_count() - 1;
+  }
+
   Points<Scalar> vertices_ = Points<Scalar>(0, 3);
   Triangles triangles_ = Triangles(0, 3);
   std::vector<int> first_triangles_;

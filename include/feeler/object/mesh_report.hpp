@@ -1,6 +1,9 @@
 // What was found in a mesh when it was built.
 #pragma once
 
+#include <algorithm>
+#include <array>
+#include <cstdio>
 #include <string>
 
 namespace feeler {
@@ -17,11 +20,18 @@ struct MeshReport {
   int non_manifold_edges = 0;     ///< with three triangles or more
   int inconsistent_edges = 0;     ///< whose two triangles face opposite sides
   int non_manifold_vertices = 0;  ///< where parts of the surface meet that share no manifold edge there
+  std::array<double, 3> lower{};  ///< least coordinates [m]
+  std::array<double, 3> upper{};  ///< largest coordinates [m]
+
+  /// Length of the longest side of the box around it [m].
+  double width() const noexcept { return (std::max)({upper[0] - lower[0], upper[1] - lower[1], upper[2] - lower[2]}); }
+  /// Wider than what a hand works on: its numbers are probably millimetres, and want a scale of 0.001.
+  bool looks_like_millimetres() const noexcept { return width() > 10; }
 
   /// The mesh is the surface of solids: every edge has two triangles, facing the same side, and no vertex
-  /// joins two sheets.
+  /// joins two sheets. Points and lines alone are none.
   bool is_closed_manifold() const noexcept {
-    return triangles > 0 && boundary_edges == 0 && non_manifold_edges == 0 && inconsistent_edges == 0 &&
+    return degenerate_triangles < triangles && boundary_edges == 0 && non_manifold_edges == 0 && inconsistent_edges == 0 &&
            non_manifold_vertices == 0 && duplicate_triangles == 0;
   }
 };
@@ -50,7 +60,13 @@ inline std::string to_string(const MeshReport& report) {
           "vertices where separate sheets meet");
   mention(report.degenerate_triangles, "triangle without area", "triangles without area");
   mention(report.duplicate_triangles, "duplicate triangle", "duplicate triangles");
-  return rest.empty() ? text : text + rest + ".";
+  if (!rest.empty()) text += rest + ".";
+  char size[128];
+  std::snprintf(size, sizeof size, " It is %.3g by %.3g by %.3g m.", report.upper[0] - report.lower[0], report.upper[1] - report.lower[1],
+                report.upper[2] - report.lower[2]);
+  text += size;
+  if (report.looks_like_millimetres()) text += " If its numbers are millimetres, give the mesh the scale 0.001.";
+  return text;
 }
 
 }  // namespace feeler
