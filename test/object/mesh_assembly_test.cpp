@@ -30,4 +30,23 @@ BOOST_AUTO_TEST_CASE(a_part_in_another_unit_and_from_arrays_lands_where_its_pose
   }
 }
 
+BOOST_AUTO_TEST_CASE(a_part_without_a_place_is_refused_and_leaves_the_assembly_as_it_was) {
+  const Points<double> vertices{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
+  const Triangles triangles{{0, 1, 2}};
+  MeshAssembly<double> assembly;
+  assembly.add(vertices, triangles);
+  const auto refused = [&](const Pose<double>& pose, double scale = 1) { return refusal([&] { assembly.add(vertices, triangles, pose, scale); }); };
+  BOOST_TEST(contains(refused({{0, std::nan(""), 0}, Quaternion<double>::Identity()}), "the pose of part 1 has a NaN"));
+  BOOST_TEST(contains(refused({{0, 0, HUGE_VAL}, Quaternion<double>::Identity()}), "the pose of part 1"));
+  BOOST_TEST(contains(refused({{0, 0, 0}, Quaternion<double>(0, 0, 0, 0)}), "a quaternion near zero"));
+  BOOST_TEST(contains(refused({{0, 0, 0}, Quaternion<double>(1e155, 0, 0, 0)}), "too large to be squared"));
+  BOOST_TEST(contains(refused({}, std::nan("")), "the scale is not a positive number"));
+  Points<double> broken = vertices;
+  broken(2, 1) = HUGE_VAL;
+  BOOST_TEST(contains(refusal([&] { assembly.add(broken, triangles); }), "vertex 2 of part 1 has a NaN or an infinity"));
+  BOOST_TEST(assembly.part_count() == 1);
+  BOOST_TEST(assembly.vertices().rows() == 3);
+  BOOST_TEST(assembly.mesh().triangle_count() == 1);
+}
+
 BOOST_AUTO_TEST_SUITE_END()

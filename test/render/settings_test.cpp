@@ -5,7 +5,9 @@
 #include <functional>
 #include <limits>
 #include <string>
+#include <type_traits>
 
+#include "feeler/contact/contact_recogniser.hpp"
 #include "feeler/render/wrench_derivative.hpp"
 #include "scenes/motions.hpp"
 #include "support/refusal.hpp"
@@ -63,15 +65,86 @@ BOOST_AUTO_TEST_CASE(what_is_no_length_or_no_count_is_refused_by_name) {
 
 BOOST_AUTO_TEST_CASE(a_margin_that_rounding_can_cross_is_refused) {
   const auto with_margin = [](double margin) { return refusal_of(cube, [&](auto& settings) { settings.margin = margin; }); };
-  BOOST_TEST(contains(with_margin(0.99e-10), "at least 100 pm"));
-  BOOST_TEST(contains(with_margin(infinity), "margin"));
+  BOOST_TEST(contains(with_margin(0.99e-10), "not a length of 1e-10 to 0.001 m"));
+  BOOST_TEST(contains(with_margin(0.99e-10), "leave the default of 1 µm"));
+  for (const double large : {1.01e-3, 1e6, infinity}) BOOST_TEST(contains(with_margin(large), "more is felt as a cushion"));
   BOOST_TEST(with_margin(1.01e-10) == "accepted");
+  BOOST_TEST(with_margin(1e-3) == "accepted");
   // Rounding grows with the object.
   const TriangleMesh<double> country(wall_at(0.0, 1e6), wall_triangles);
   Settings<double> settings;
   BOOST_TEST(contains(refusal([&] { HapticRenderer(country, cube, settings); }), "margin"));
+  BOOST_TEST(!contains(refusal([&] { HapticRenderer(country, cube, settings); }), "leave the default"));
   settings.margin = 1e-5;
   BOOST_TEST(refusal([&] { HapticRenderer(country, cube, settings); }) == "accepted");
+}
+
+BOOST_AUTO_TEST_CASE(lengths_with_which_the_tool_would_stay_where_it_is_or_never_converge_are_refused) {
+  const auto with = [](double Settings<double>::* length, double value) { return refusal_of(cube, [&](auto& settings) { settings.*length = value; }); };
+  for (const double bad : {1e-300, 1e-13, 1.1e-3, 1e300, infinity}) BOOST_TEST(contains(with(&Settings<double>::step_tolerance, bad), "step_tolerance"), bad);
+  for (const double bad : {1e-300, 1e-12, 0.9e-6}) BOOST_TEST(contains(with(&Settings<double>::trust_radius, bad), "trust_radius"), bad);
+  for (const double good : {1e-12, 1e-10, 1e-3}) BOOST_TEST(with(&Settings<double>::step_tolerance, good) == "accepted");
+  for (const double good : {1e-6, 1.0}) BOOST_TEST(with(&Settings<double>::trust_radius, good) == "accepted");
+}
+
+BOOST_AUTO_TEST_CASE(scenes_that_are_too_large_or_too_far_off_are_refused_and_told_how_large_and_how_far) {
+  const TriangleMesh<double> object(wall_at(0.0), wall_triangles);
+  for (const double half : {1e10, 1e200, 1e308}) {
+    const std::string sentence = refusal([&] { HapticRenderer(object, Box<double>({half, 1, 1})); });
+    BOOST_TEST(contains(sentence, "m across, and rounding could carry the tool through a surface whatever the margin"), sentence);
+    BOOST_TEST(!contains(sentence, "-9"));
+  }
+  Settings<double> lever;
+  lever.reference_point.x() = 1e200;
+  BOOST_TEST(contains(refusal([&] { HapticRenderer(object, cube, lever); }), "m across, and rounding"));
+
+  const auto off = [](auto distance) {
+    using Scalar = decltype(distance);
+    const TriangleMesh<Scalar> far(wall_at(distance), wall_triangles);
+    return refusal([&] { HapticRenderer(far, Box<Scalar>(Vector3<Scalar>::Constant(Scalar(0.01)))); });
+  };
+  BOOST_TEST(contains(off(1e6f), "the object reaches 1e+06 m from the origin, where poses are rounded to 0.0596 m; move the scene to the origin, or use double"));
+  BOOST_TEST(contains(off(1e10), "move the scene to the origin, or give a larger margin"));
+  BOOST_TEST(off(1e3f) == "accepted");
+  BOOST_TEST(off(1e8) == "accepted");
+}
+
+BOOST_AUTO_TEST_CASE(weights_whose_wrench_overflows_or_of_which_rounding_leaves_nothing_are_refused) {
+  const auto with = [](const Vector3<double>& translational, const Vector3<double>& rotational, bool is_metric = false) {
+    return refusal_of(cube, [&](auto& settings) {
+      if (is_metric) settings.metric = Metric<double>{translational, rotational};
+      else settings.stiffness = {translational, rotational};
+    });
+  };
+  const Vector3<double> ones = Vector3<double>::Ones();
+  BOOST_TEST(contains(with(1e300 * ones, ones), "whose wrench would overflow"));
+  BOOST_TEST(contains(with(ones, 1e160 * ones), "whose wrench would overflow"));
+  BOOST_TEST(contains(with(1e150 * ones, 1e-200 * ones), "Settings::stiffness has weights that differ"));  // the ratio underflows
+  BOOST_TEST(contains(with(5e-324 * ones, ones), "Settings::stiffness has weights that differ"));          // or overflows
+  BOOST_TEST(contains(with({1, 1, 1e20}, ones), "Settings::stiffness has weights that differ"));
+  BOOST_TEST(contains(with(ones, {1e20, 1, 1}), "Settings::stiffness has weights that differ"));
+  BOOST_TEST(contains(with({1, 1e20, 1}, ones, true), "Settings::metric has weights that differ"));
+  BOOST_TEST(contains(with({0, 1, 1}, ones), "has a zero"));
+  BOOST_TEST(with(1e20 * ones, ones) == "accepted");
+  BOOST_TEST(with({1, 1e14, 1}, ones) == "accepted");
+  const TriangleMesh<float> narrow(wall_at(0.0f), wall_triangles);
+  Settings<float> stiff;
+  stiff.stiffness = Stiffness<float>::uniform(1e30f, 1e30f);
+  BOOST_TEST(contains(refusal([&] { HapticRenderer(narrow, Box<float>({1, 1, 1}), stiff); }), "whose wrench would overflow"));
+  BOOST_TEST(refusal_of(ball, [](auto& settings) { settings.stiffness.rotational = {1e100, 0, 1e-300}; }) == "accepted");
+}
+
+BOOST_AUTO_TEST_CASE(what_is_referred_to_must_outlive_who_refers_to_it) {
+  using Mesh = TriangleMesh<double>;
+  using Renderer = HapticRenderer<Box<double>>;
+  using Recogniser = ContactRecogniser<Box<double>>;
+  using Surface = SurfaceFeatures<double>;
+  static_assert(std::is_constructible_v<Renderer, const Mesh&, const Box<double>&> && std::is_constructible_v<Renderer, Mesh&, const Box<double>&>);
+  static_assert(!std::is_constructible_v<Renderer, Mesh, const Box<double>&> && !std::is_constructible_v<Renderer, const Mesh, const Box<double>&>);
+  static_assert(!std::is_constructible_v<Renderer, const Mesh, const Box<double>&, const Settings<double>&>);
+  static_assert(std::is_constructible_v<Recogniser, const Mesh&, const Surface&, const Box<double>&>);
+  static_assert(!std::is_constructible_v<Recogniser, const Mesh, const Surface&, const Box<double>&>);
+  static_assert(!std::is_constructible_v<Recogniser, const Mesh&, const Surface, const Box<double>&, double>);
 }
 
 BOOST_AUTO_TEST_CASE(a_reference_point_or_a_weight_that_is_not_finite_is_refused) {

@@ -4,8 +4,10 @@
 #include <cmath>
 #include <random>
 
+#include "feeler/core/status.hpp"
 #include "feeler/spatial/turned_stiffness.hpp"
 #include "support/random_geometry.hpp"
+#include "support/refusal.hpp"
 
 BOOST_AUTO_TEST_SUITE(poses)
 
@@ -42,6 +44,15 @@ BOOST_AUTO_TEST_CASE(a_product_of_poses_maps_points_as_one_after_the_other_and_t
     BOOST_TEST((outer.inverse() * (outer * point) - point).norm() < 1e-14);
     BOOST_TEST((outer * outer.inverse() * point - point).norm() < 1e-14);
   }
+}
+
+BOOST_AUTO_TEST_CASE(the_sentence_about_a_pose_that_is_not_finite_is_true_of_all_that_are_not) {
+  for (const double huge : {1e155, 1e300}) {
+    BOOST_TEST((!Pose<double>{{0, huge, 0}, Quaternion<double>::Identity()}.is_finite()));
+    BOOST_TEST((!Pose<double>{{0, 0, 0}, Quaternion<double>(huge, 0, 0, 0)}.is_finite()));
+  }
+  BOOST_TEST((!Pose<double>{{0, 0, 0}, Quaternion<double>(1e-9, 0, 0, 0)}.is_finite()));
+  BOOST_TEST(contains(to_string(Status::not_finite), "a number too large to be squared, or a quaternion near zero"));
 }
 
 BOOST_AUTO_TEST_CASE(a_wrench_that_is_moved_works_as_much_on_every_motion) {

@@ -65,6 +65,9 @@ class ContactRecogniser {
       refuse("ContactRecogniser: the tolerance is not a positive length; give some micrometres, such as 2e-6");
   }
 
+  ContactRecogniser(const TriangleMesh<MeshScalar>&&, const SurfaceFeatures<MeshScalar>&, const Tool_&, Scalar = Scalar(0)) = delete;
+  ContactRecogniser(const TriangleMesh<MeshScalar>&, const SurfaceFeatures<MeshScalar>&&, const Tool_&, Scalar = Scalar(0)) = delete;
+
   /// The principal contacts of a pose; none where it is not finite.
   /// @param world_from_tool  pose of the tool; contacts deeper than the tolerance are not found
   /// @return valid until the next call

@@ -59,6 +59,8 @@ class MeshAssembly {
     const Eigen::Index first_vertex = vertices_.rows(), first_triangle = triangles_.rows();
     const std::string part = " of part " + std::to_string(part_count());
     refuse_for(detail::reason_against_counts("MeshAssembly", std::size_t(first_vertex + vertices.rows()), std::size_t(first_triangle + triangles.rows())));
+    if (!pose.is_finite())
+      refuse("MeshAssembly: the pose" + part + " has a NaN, a number too large to be squared, or a quaternion near zero; give metres, and w = 1 for no rotation");
     refuse_for(detail::reason_against_mesh("MeshAssembly", part, vertices, triangles, scale));
     const Matrix3<Scalar> axes = pose.rotation.normalized().toRotationMatrix();
     vertices_.conservativeResize(first_vertex + vertices.rows(), 3);

@@ -3,8 +3,10 @@
 
 #include <algorithm>
 #include <array>
-#include <cstdio>
+#include <cstddef>
 #include <string>
+
+#include "feeler/core/number_text.hpp"
 
 namespace feeler {
 
@@ -61,10 +63,8 @@ inline std::string to_string(const MeshReport& report) {
   mention(report.degenerate_triangles, "triangle without area", "triangles without area");
   mention(report.duplicate_triangles, "duplicate triangle", "duplicate triangles");
   if (!rest.empty()) text += rest + ".";
-  char size[128];
-  std::snprintf(size, sizeof size, " It is %.3g by %.3g by %.3g m.", report.upper[0] - report.lower[0], report.upper[1] - report.lower[1],
-                report.upper[2] - report.lower[2]);
-  text += size;
+  const auto side = [&](std::size_t k) { return detail::number_text(report.upper[k] - report.lower[k]); };
+  text += " It is " + side(0) + " by " + side(1) + " by " + side(2) + " m.";
   if (report.looks_like_millimetres()) text += " If its numbers are millimetres, give the mesh the scale 0.001.";
   return text;
 }

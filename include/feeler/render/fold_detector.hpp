@@ -2,7 +2,9 @@
 #pragma once
 
 #include <cmath>
+#include <limits>
 
+#include "feeler/core/requirement.hpp"
 #include "feeler/core/scalar.hpp"
 #include "feeler/core/status.hpp"
 #include "feeler/render/settings.hpp"
@@ -36,9 +38,12 @@ class FoldDetector {
   /// The tool may go so many times as far as the device without a fold: past a corner that it turns about it is faster than the hand.
   static constexpr Scalar most_gain = Scalar(4);
 
-  /// @param least_jump  shorter ones are not told [m]
-  explicit FoldDetector(const Settings<Scalar>& settings, Scalar least_jump = Scalar(1e-4)) noexcept
-      : reference_(settings.reference_point), metric_(settings.metric_in_use()), least_jump_(least_jump) {}
+  /// @param least_jump  shorter ones are not told [m]; refused where it is negative or not finite
+  explicit FoldDetector(const Settings<Scalar>& settings, Scalar least_jump = Scalar(1e-4))
+      : reference_(settings.reference_point), metric_(settings.metric_in_use()), least_jump_(least_jump) {
+    if (!(least_jump >= Scalar(0) && least_jump <= (std::numeric_limits<Scalar>::max)()))
+      refuse("FoldDetector: the least jump is not a length; give the shortest one that is to be told, 1e-4 if in doubt");
+  }
 
   /// Starts anew, after `HapticRenderer::reset`.
   void reset(const Pose<Scalar>& haptic_pose, const Pose<Scalar>& graphic_pose) noexcept {

@@ -37,7 +37,7 @@ class HapticRenderer {
 
   /// Refuses settings with which the tool could not follow, or could penetrate; see `Settings`.
   HapticRenderer(const TriangleMesh<Scalar>& object, const Tool& tool, const Settings<Scalar>& settings = {});
-  HapticRenderer(TriangleMesh<Scalar>&&, const Tool&, const Settings<Scalar>& = {}) = delete;
+  HapticRenderer(const TriangleMesh<Scalar>&&, const Tool&, const Settings<Scalar>& = {}) = delete;
 
   const Settings<Scalar>& settings() const noexcept { return scene_.settings(); }
   /// The metric in which the graphic pose is the nearest.

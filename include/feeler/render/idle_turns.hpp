@@ -4,7 +4,6 @@
 #include <limits>
 #include <type_traits>
 
-#include "feeler/core/requirement.hpp"
 #include "feeler/core/scalar.hpp"
 #include "feeler/spatial/metric.hpp"
 #include "feeler/spatial/pose.hpp"
@@ -30,14 +29,8 @@ class IdleTurns {
   /// Legs of a tick's path that may be idle turns: one before the motion and one after it, each of two where it is about half a turn.
   static constexpr int legs = symmetry == Symmetry::none ? 0 : 4;
 
-  /// Refuses a reference point beside the centre of a tool that has one.
-  IdleTurns(const Tool& tool, const Vector3<Scalar>& reference, const Metric<Scalar>& metric) {
-    if constexpr (symmetry == Symmetry::about_point) {
-      if (tool.vertex(0) != reference)
-        refuse(
-            "HapticRenderer: the reference point is not the centre of the tool, which has no other point to hold it by; set "
-            "Settings::reference_point to the centre or, if the tool is held by a lever, make it a CompoundTool of this one piece");
-    }
+  /// The reference point of a tool with a centre is that.
+  IdleTurns([[maybe_unused]] const Tool& tool, [[maybe_unused]] const Vector3<Scalar>& reference, [[maybe_unused]] const Metric<Scalar>& metric) {
     if constexpr (symmetry == Symmetry::about_axis) {
       const Vector3<Scalar> along = tool.vertex(1) - tool.vertex(0);
       const Scalar size = tool.vertex(0).norm() + tool.vertex(1).norm() + reference.norm();

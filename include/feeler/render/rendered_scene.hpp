@@ -5,15 +5,16 @@
 #include <array>
 #include <limits>
 #include <span>
-#include <string>
 #include <type_traits>
 #include <utility>
 
+#include "feeler/core/requirement.hpp"
 #include "feeler/object/triangle_mesh.hpp"
 #include "feeler/proximity/clearance.hpp"
 #include "feeler/proximity/motion.hpp"
 #include "feeler/proximity/separation.hpp"
 #include "feeler/render/idle_turns.hpp"
+#include "feeler/render/scene_rounding.hpp"
 #include "feeler/render/settings.hpp"
 #include "feeler/render/usable_settings.hpp"
 #include "feeler/tool/piece_tree.hpp"
@@ -44,29 +45,23 @@ class RenderedScene {
   using Tool = std::remove_cvref_t<decltype(detail::working_tool<Scalar>(std::declval<const ToolType&>()))>;
   using Piece = PieceOf<Tool>;
 
+  /// Refuses settings that are of no use, and scenes that rounding spoils; see `reason_against_scene`.
   RenderedScene(const TriangleMesh<MeshScalar>& object, const ToolType& tool, const Settings<MeshScalar>& settings)
       : object_(&object),
         tool_(detail::working_tool<Scalar>(tool)),
-        settings_(usable(settings, symmetry_of<Tool> != Symmetry::about_point)),
+        settings_(usable(object, tool_, settings)),
         reference_(settings.reference_point.template cast<Scalar>()),
         metric_(metric_of(settings)),
         idle_turns_(tool_, reference_, metric_),
         piece_tree_(tool_) {
-    Scalar surface = Scalar(0);
     for (int i = 0; i < piece_count(); ++i) {
       incidences_[index(i)] = incidence_of(piece(i));
       radii_[index(i)] = radius_about(piece(i), reference_);
       radius_ = (std::max)(radius_, radii_[index(i)]);
-      surface = (std::max)(surface, radii_[index(i)] + swept_radius(piece(i)));
     }
-    const Scalar size = (std::max)(surface, Scalar(object.bounds().diagonal().norm()));
-    const Scalar rounding = 256 * std::numeric_limits<Scalar>::epsilon() * size;
-    clearance_.allowance = (std::max)(clearance_.allowance, rounding);
-    const Scalar least_margin = 20 * clearance_.allowance;
-    if (!(Scalar(settings.margin) >= least_margin && settings.margin <= (std::numeric_limits<MeshScalar>::max)()))
-      refuse("HapticRenderer: Settings::margin is not a length of at least " + std::to_string(long(double(least_margin) * 1e12 + 0.5)) +
-             " pm; with less, rounding can carry the tool through a surface; leave the default of 1 µm if in doubt");
-    clearance_.rounding = rounding_of_poses(object.bounds(), surface + reference_.norm());
+    const SceneRounding<MeshScalar, Scalar> rounding(object, tool_, reference_);
+    clearance_.allowance = rounding.allowance();
+    if constexpr (!std::is_same_v<MeshScalar, Scalar>) clearance_.rounding = rounding.of_poses();
     margin_ = (std::max)(Scalar(settings.margin), 10 * clearance_.rounding);
     clearance_.kept = margin_ / 10;
     clearance_.noticed = margin_ - margin_ / 1000;  // what rests at the margin is far enough
@@ -149,6 +144,10 @@ class RenderedScene {
   }
 
  private:
+  static const Settings<MeshScalar>& usable(const TriangleMesh<MeshScalar>& object, const Tool& tool, const Settings<MeshScalar>& settings) {
+    refuse_for(reason_against_scene(object, tool, settings));
+    return settings;
+  }
   static std::size_t index(int i) noexcept { return std::size_t(i); }
   /// A sphere's turns may weigh nothing; where nobody turns it any other weight does as well.
   static Metric<Scalar> metric_of(const Settings<MeshScalar>& settings) noexcept {
@@ -156,19 +155,6 @@ class RenderedScene {
     if constexpr (symmetry_of<Tool> == Symmetry::about_point) metric.rotational.setOnes();
     return metric;
   }
-  /// How far a point of the tool may be from where it should be when the tool touches the object and its pose is rounded to the user's
-  /// scalar, where that is the narrower one [m].
-  /// @param reach  of the tool from the origin of its frame [m]
-  static Scalar rounding_of_poses(const Eigen::AlignedBox<MeshScalar, 3>& object, Scalar reach) noexcept {
-    if constexpr (std::is_same_v<MeshScalar, Scalar>) {
-      return Scalar(0);
-    } else {
-      const Scalar unit = Scalar(std::numeric_limits<MeshScalar>::epsilon()) / 2;
-      const Vector3<Scalar> farthest = (object.min)().cwiseAbs().cwiseMax((object.max)().cwiseAbs()).template cast<Scalar>();
-      return unit * (farthest.norm() + reach) + 4 * unit * reach;  // a quaternion off by δ turns by 2 δ, and stretches by as much
-    }
-  }
-
   struct NoGroups {
     explicit NoGroups(const Tool&) noexcept {}
   };

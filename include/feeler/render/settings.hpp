@@ -29,16 +29,16 @@ struct Settings {
 
   /// Distance kept between tool and object [m]. It smooths the edges of the obstacle: less is more exact and needs more
   /// iterations; below 1e-8 convergence is lost, above 1e-5 it can be felt. Tighter fits than twice the margin are still rendered.
-  /// Less than 1e-10 is refused. With poses of `float` it is not less than ten times their rounding, which exceeds the default where
+  /// Less than 1e-10 is refused, and more than 1e-3. With poses of `float` it is not less than ten times their rounding, which exceeds the default where
   /// the object reaches a metre from the origin.
   Scalar margin = Scalar(1e-6);
 
   /// Longest motion of any tool point between two linearisations in contact [m]; up to eight times as long where nothing has stopped a few
   /// such motions. More follows a fast hand with fewer iterations, and
-  /// makes one bad linearisation cost more.
+  /// makes one bad linearisation cost more. Less than 1e-6 is refused.
   Scalar trust_radius = Scalar(4e-4);
 
-  /// A step that moves no tool point farther than this, and a tenth of the step before it, ends a tick as converged [m].
+  /// A step that moves no tool point farther than this, and a tenth of the step before it, ends a tick as converged [m]. 1e-12 to 1e-3.
   Scalar step_tolerance = Scalar(5e-6);
 
   /// Linearisations a tick, at most 32; when they are spent the rest of the motion is left for the next ticks.

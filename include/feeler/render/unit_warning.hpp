@@ -1,11 +1,11 @@
 // A word to the user whose numbers are probably no metres.
 #pragma once
 
-#include <cstdio>
 #include <string>
 
 #include <Eigen/Geometry>
 
+#include "feeler/core/number_text.hpp"
 #include "feeler/core/scalar.hpp"
 #include "feeler/object/triangle_mesh.hpp"
 #include "feeler/tool/rigid_tool.hpp"
@@ -34,10 +34,9 @@ std::string unit_warning(const TriangleMesh<typename Tool::Scalar>& object, cons
   const double width = width_of(tool);
   const bool is_tool_wide = width > 1;
   if (!is_tool_wide && !object.report().looks_like_millimetres()) return {};
-  char sentence[192];
-  std::snprintf(sentence, sizeof sentence, "The object is %.3g m wide and the tool %.3g m; if %s in millimetres, give %s in metres, by the scale 0.001.",
-                object.report().width(), width, is_tool_wide ? "the numbers are" : "the object's numbers are", is_tool_wide ? "them" : "it");
-  return sentence;
+  return "The object is " + detail::number_text(object.report().width()) + " m wide and the tool " + detail::number_text(width) +
+         (is_tool_wide ? " m; if the numbers are in millimetres, give them in metres, by the scale 0.001."
+                       : " m; if the object's numbers are in millimetres, give it the scale 0.001.");
 }
 
 }  // namespace feeler

@@ -27,7 +27,7 @@ struct Pose {
     return {-(back * translation), back};
   }
 
-  /// False for a NaN, an infinity, a translation too long to be squared, or a quaternion that cannot be normalised.
+  /// False for a NaN, a number too large to be squared, an infinity among them, or a quaternion too short to be normalised.
   bool is_finite() const noexcept {
     using std::isfinite;
     const Scalar length = rotation.squaredNorm();
