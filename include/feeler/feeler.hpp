@@ -2,6 +2,7 @@
 #pragma once
 
 #include "feeler/contact/contact_recogniser.hpp"
+#include "feeler/core/result.hpp"
 #include "feeler/core/scalar.hpp"
 #include "feeler/core/status.hpp"
 #include "feeler/core/version.hpp"

@@ -1,26 +1,31 @@
 // What happens when construction is given input it cannot use: one sentence, thrown or printed.
 #pragma once
 
-#include <string>
-
-#if defined(__cpp_exceptions)
-#include <stdexcept>
-#else
+#include <atomic>
 #include <cstdio>
 #include <cstdlib>
-#endif
+#include <stdexcept>
+#include <string>
 
 namespace feeler {
 
-/// Refuses bad input at construction: throws `std::invalid_argument` with the sentence, or, in a build without
-/// exceptions, prints it and aborts. Never called from the tick.
-[[noreturn]] inline void refuse(const std::string& sentence) {
+namespace detail {
+/// Throws a refusal, or null in a program without a file that has exceptions. So `refuse`, and all that call it, are the same in files with
+/// exceptions and in those without, and it does not matter whose the linker takes.
+inline constinit std::atomic<void (*)(const std::string&)> throw_refusal = nullptr;
+
 #if defined(__cpp_exceptions)
-  throw std::invalid_argument(sentence);
-#else
+[[noreturn]] inline void throw_invalid_argument(const std::string& sentence) { throw std::invalid_argument(sentence); }
+inline const bool has_exceptions = (throw_refusal = throw_invalid_argument, true);  // set before main
+#endif
+}  // namespace detail
+
+/// Refuses bad input at construction: throws `std::invalid_argument` with the sentence or, in a program of which no file has exceptions, prints it
+/// and aborts. Never called from the tick. Who wants neither asks with `try_make`.
+[[noreturn]] inline void refuse(const std::string& sentence) {
+  if (const auto throw_it = detail::throw_refusal.load()) throw_it(sentence);
   std::fprintf(stderr, "feeler: %s\n", sentence.c_str());
   std::abort();
-#endif
 }
 
 /// The same where there is a reason, a sentence; not where it is empty.

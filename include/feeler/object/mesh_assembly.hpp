@@ -39,6 +39,11 @@ class MeshAssembly {
     return add_rows(detail::rows_of_three(vertices, vertex_count), detail::rows_of_three(triangles, triangle_count), pose, scale);
   }
 
+  /// The sentence with which `add` refuses a part; empty where it does not.
+  std::string reason_against(const Points<Scalar>& vertices, const Triangles& triangles, const Pose<Scalar>& pose = {}, Scalar scale = Scalar(1)) const {
+    return reason_against_rows(vertices, triangles, pose, scale);
+  }
+
   int part_count() const noexcept { return int(first_triangles_.size()); }
   /// The part that a triangle of the object belongs to.
   int part_of(int triangle) const noexcept {
@@ -55,13 +60,19 @@ class MeshAssembly {
 
  private:
   template <class VertexRows, class IndexRows>
-  int add_rows(const VertexRows& vertices, const IndexRows& triangles, const Pose<Scalar>& pose, Scalar scale) {
-    const Eigen::Index first_vertex = vertices_.rows(), first_triangle = triangles_.rows();
+  std::string reason_against_rows(const VertexRows& vertices, const IndexRows& triangles, const Pose<Scalar>& pose, Scalar scale) const {
     const std::string part = " of part " + std::to_string(part_count());
-    refuse_for(detail::reason_against_counts("MeshAssembly", std::size_t(first_vertex + vertices.rows()), std::size_t(first_triangle + triangles.rows())));
     if (!pose.is_finite())
-      refuse("MeshAssembly: the pose" + part + " has a NaN, a number too large to be squared, or a quaternion near zero; give metres, and w = 1 for no rotation");
-    refuse_for(detail::reason_against_mesh("MeshAssembly", part, vertices, triangles, scale));
+      return "MeshAssembly: the pose" + part + " has a NaN, a number too large to be squared, or a quaternion near zero; give metres, and w = 1 for no rotation";
+    const std::string reason =
+        detail::reason_against_counts("MeshAssembly", std::size_t(vertices_.rows() + vertices.rows()), std::size_t(triangles_.rows() + triangles.rows()));
+    return reason.empty() ? detail::reason_against_mesh("MeshAssembly", part, vertices, triangles, scale) : reason;
+  }
+
+  template <class VertexRows, class IndexRows>
+  int add_rows(const VertexRows& vertices, const IndexRows& triangles, const Pose<Scalar>& pose, Scalar scale) {
+    refuse_for(reason_against_rows(vertices, triangles, pose, scale));
+    const Eigen::Index first_vertex = vertices_.rows(), first_triangle = triangles_.rows();
     const Matrix3<Scalar> axes = pose.rotation.normalized().toRotationMatrix();
     vertices_.conservativeResize(first_vertex + vertices.rows(), 3);
     vertices_.bottomRows(vertices.rows()) = (vertices.template cast<Scalar>() * scale * axes.transpose()).rowwise() + pose.translation.transpose();

@@ -2,7 +2,9 @@
 #pragma once
 
 #include <limits>
+#include <string>
 
+#include "feeler/core/result.hpp"
 #include "feeler/core/status.hpp"
 #include "feeler/object/triangle_mesh.hpp"
 #include "feeler/qp/dual_active_set.hpp"
@@ -38,6 +40,10 @@ class HapticRenderer {
   /// Refuses settings with which the tool could not follow, or could penetrate; see `Settings`.
   HapticRenderer(const TriangleMesh<Scalar>& object, const Tool& tool, const Settings<Scalar>& settings = {});
   HapticRenderer(const TriangleMesh<Scalar>&&, const Tool&, const Settings<Scalar>& = {}) = delete;
+  /// The sentence with which the constructor refuses what it is given; empty where it does not. For `try_make<HapticRenderer<…>>`.
+  static std::string reason_against(const TriangleMesh<Scalar>& object, const Tool& tool, const Settings<Scalar>& settings = {}) {
+    return reason_against_scene(object, detail::working_tool<Working>(tool), settings);
+  }
 
   const Settings<Scalar>& settings() const noexcept { return scene_.settings(); }
   /// The metric in which the graphic pose is the nearest.

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cmath>
+#include <string>
 
 #include "feeler/core/requirement.hpp"
 #include "feeler/tool/convex_tool.hpp"
@@ -16,11 +17,12 @@ class Box {
   using Scalar = Scalar_;
 
   /// Refuses half extents that are not positive and finite.
-  explicit Box(const Vector3<Scalar>& half_extents) : half_extents_(half_extents) {
-    if (!half_extents.allFinite())
-      refuse("Box: a half extent is a NaN or an infinity; give three finite lengths");
+  explicit Box(const Vector3<Scalar>& half_extents) : half_extents_(half_extents) { refuse_for(reason_against(half_extents)); }
+  static std::string reason_against(const Vector3<Scalar>& half_extents) {
+    if (!half_extents.allFinite()) return "Box: a half extent is a NaN or an infinity; give three finite lengths";
     if (!(half_extents.minCoeff() > Scalar(0)))
-      refuse("Box: a half extent is zero or negative; give three positive lengths, or use a flatter tool");
+      return "Box: a half extent is zero or negative; give three positive lengths, or use a flatter tool";
+    return {};
   }
 
   const Vector3<Scalar>& half_extents() const noexcept { return half_extents_; }

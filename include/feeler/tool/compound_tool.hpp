@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "feeler/core/requirement.hpp"
+#include "feeler/core/result.hpp"
 #include "feeler/tool/convex_polytope.hpp"
 #include "feeler/tool/rigid_tool.hpp"
 
@@ -23,22 +24,33 @@ class CompoundTool {
   static constexpr int maximum_pieces = 64;
 
   /// Refuses no pieces, and more than 64.
-  explicit CompoundTool(std::vector<Piece> pieces) : pieces_(std::move(pieces)) {
-    if (pieces_.empty()) refuse("CompoundTool: no pieces; give at least one");
-    if (pieces_.size() > std::size_t(maximum_pieces)) {
-      refuse("CompoundTool: " + std::to_string(pieces_.size()) + " pieces, more than " + std::to_string(maximum_pieces) +
-             "; join some of them");
+  explicit CompoundTool(std::vector<Piece> pieces) : pieces_(std::move(pieces)) { refuse_for(reason_against(pieces_)); }
+  static std::string reason_against(const std::vector<Piece>& pieces) {
+    if (pieces.empty()) return "CompoundTool: no pieces; give at least one";
+    if (pieces.size() > std::size_t(maximum_pieces)) {
+      return "CompoundTool: " + std::to_string(pieces.size()) + " pieces, more than " + std::to_string(maximum_pieces) + "; join some of them";
     }
+    return {};
   }
 
   /// A piece for each set of points: its convex hull. Refuses what `ConvexPolytope::hull_of` refuses.
   static CompoundTool hulls_of(std::span<const Points<Scalar>> sets)
     requires std::same_as<Piece, ConvexPolytope<Scalar>>
   {
+    return try_hulls_of(sets).value();
+  }
+  /// The same, or the reason against it.
+  static Result<CompoundTool> try_hulls_of(std::span<const Points<Scalar>> sets)
+    requires std::same_as<Piece, ConvexPolytope<Scalar>>
+  {
     std::vector<Piece> pieces;
     pieces.reserve(sets.size());
-    for (const Points<Scalar>& points : sets) pieces.push_back(Piece::hull_of(points));
-    return CompoundTool(std::move(pieces));
+    for (const Points<Scalar>& points : sets) {
+      Result<Piece> piece = Piece::try_hull_of(points);
+      if (!piece) return Result<CompoundTool>::refused("CompoundTool: piece " + std::to_string(pieces.size()) + ": " + piece.reason());
+      pieces.push_back(*std::move(piece));
+    }
+    return try_make<CompoundTool>(std::move(pieces));
   }
 
   int piece_count() const noexcept { return int(pieces_.size()); }

@@ -10,7 +10,7 @@
 
 #include <Eigen/Geometry>
 
-#include "feeler/core/requirement.hpp"
+#include "feeler/core/result.hpp"
 #include "feeler/tool/convex_tool.hpp"
 #include "feeler/tool/hull_faces.hpp"
 #include "feeler/tool/support_blocks.hpp"
@@ -32,8 +32,11 @@ class ConvexPolytope {
   /// where the rounding of the points comes from. Refuses fewer than 4 points, points not finite, all equal,
   /// on a line or in a plane, and hulls of more than 256 vertices.
   /// @cost  allocates; milliseconds for thousands of points
-  static ConvexPolytope hull_of(const Points<Scalar>& points) {
-    const Lattice lattice(points);
+  static ConvexPolytope hull_of(const Points<Scalar>& points) { return try_hull_of(points).value(); }
+  /// The same, or the reason against it.
+  static Result<ConvexPolytope> try_hull_of(const Points<Scalar>& points) {
+    Lattice lattice(points);
+    if (!lattice.reason.empty()) return Result<ConvexPolytope>::refused(lattice.reason);
     std::vector<detail::LatticePoint> corners = lattice.points;
     std::vector<int> rows(corners.size());  // of the input
     for (std::size_t i = 0; i < rows.size(); ++i) rows[i] = int(i);
@@ -41,11 +44,14 @@ class ConvexPolytope {
     // Dropping the vertices that are no corners can make others droppable: repeat until none is. Two rounds
     // are the rule.
     for (std::array<int, 4> simplex = lattice.simplex(corners);; simplex = lattice.simplex(corners)) {
+      if (!lattice.reason.empty()) return Result<ConvexPolytope>::refused(lattice.reason);
       const auto triangles = detail::Quickhull(corners, simplex, lattice.tolerance).triangles();
       const detail::HullFaces faces(corners, triangles, lattice.tolerance);
       const std::vector<int> kept = faces.corners();
       if (kept.size() == corners.size() || kept.size() < 4) {
-        check_size(int(corners.size()));
+        if (int(corners.size()) > max_vertex_count)
+          return Result<ConvexPolytope>::refused("ConvexPolytope: the hull has " + std::to_string(corners.size()) + " vertices and may have " +
+                                                 std::to_string(max_vertex_count) + "; simplify the shape, or split it into convex pieces");
         return ConvexPolytope(points, rows, faces.polygons());
       }
       for (std::size_t i = 0; i < kept.size(); ++i) {
@@ -105,21 +111,26 @@ class ConvexPolytope {
   struct Lattice {
     std::vector<detail::LatticePoint> points;
     long double tolerance = 0;  // in lattice units
+    std::string reason;         // against a hull; the rest is then of no use
 
     explicit Lattice(const Points<Scalar>& input) {
-      if (input.rows() < 4)
-        refuse("ConvexPolytope: " + std::to_string(input.rows()) +
-               " points have no volume; give at least 4, or use Segment for a line");
-      for (int i = 0; i < int(input.rows()); ++i)
-        if (!input.row(i).allFinite())
-          refuse("ConvexPolytope: point " + std::to_string(i) +
-                 " has a NaN or an infinity; remove it or correct its coordinates");
+      if (input.rows() < 4) {
+        reason = "ConvexPolytope: " + std::to_string(input.rows()) + " points have no volume; give at least 4, or use Segment for a line";
+        return;
+      }
+      for (int i = 0; i < int(input.rows()); ++i) {
+        if (input.row(i).allFinite()) continue;
+        reason = "ConvexPolytope: point " + std::to_string(i) + " has a NaN or an infinity; remove it or correct its coordinates";
+        return;
+      }
       const Points<Working> wide = input.template cast<Working>();
       const Eigen::Matrix<Working, 1, 3> lower = wide.colwise().minCoeff();
       const Eigen::Matrix<Working, 1, 3> sides = wide.colwise().maxCoeff() - lower;
       const Working side = sides.maxCoeff();
-      if (!(side > Working(0)))
-        refuse("ConvexPolytope: all points are equal; give at least 4 that are not in one plane");
+      if (!(side > Working(0))) {
+        reason = "ConvexPolytope: all points are equal; give at least 4 that are not in one plane";
+        return;
+      }
       using std::ldexp;
       const auto on_lattice = [&](const Working& x) {
         return static_cast<std::int64_t>(ldexp(Working(x / side), detail::lattice_bits));
@@ -136,7 +147,7 @@ class ConvexPolytope {
 
     /// Four points far apart: the ends of the longest axis, the point farthest from their line, the point
     /// farthest from their plane.
-    std::array<int, 4> simplex(const std::vector<detail::LatticePoint>& corners) const {
+    std::array<int, 4> simplex(const std::vector<detail::LatticePoint>& corners) {
       std::array<int, 4> result{};
       std::int64_t longest = -1;
       for (const auto axis : {&detail::LatticePoint::x, &detail::LatticePoint::y, &detail::LatticePoint::z}) {
@@ -159,8 +170,10 @@ class ConvexPolytope {
         }
       }
       const long double base = std::sqrt(square(b.x - a.x) + square(b.y - a.y) + square(b.z - a.z));
-      if (!(width > tolerance * base))
-        refuse("ConvexPolytope: all points are on one line; give points with a volume, or use Segment");
+      if (!(width > tolerance * base)) {
+        reason = "ConvexPolytope: all points are on one line; give points with a volume, or use Segment";
+        return result;
+      }
       const detail::LatticePlane plane(a, b, corners[std::size_t(result[2])]);
       long double thickness = 0;
       for (std::size_t i = 0; i < corners.size(); ++i) {
@@ -171,9 +184,7 @@ class ConvexPolytope {
         }
       }
       if (!(thickness > tolerance))
-        refuse(
-            "ConvexPolytope: all points are in one plane; give points with a volume, for a sheet two layers "
-            "of them");
+        reason = "ConvexPolytope: all points are in one plane; give points with a volume, for a sheet two layers of them";
       return result;
     }
 
@@ -233,12 +244,6 @@ class ConvexPolytope {
       result.push_back(direction.template cast<Scalar>());
     }
     return result;
-  }
-
-  static void check_size(int count) {
-    if (count > max_vertex_count)
-      refuse("ConvexPolytope: the hull has " + std::to_string(count) + " vertices and may have " +
-             std::to_string(max_vertex_count) + "; simplify the shape, or split it into convex pieces");
   }
 
   SupportBlocks<Scalar> vertices_;

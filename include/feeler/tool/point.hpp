@@ -1,6 +1,8 @@
 // The smallest tool: a point, and the core of a sphere.
 #pragma once
 
+#include <string>
+
 #include "feeler/core/requirement.hpp"
 #include "feeler/tool/convex_tool.hpp"
 #include "feeler/tool/symmetry.hpp"
@@ -17,8 +19,9 @@ class Point {
   /// The origin of the tool frame.
   Point() = default;
   /// Refuses a position that is not finite.
-  explicit Point(const Vector3<Scalar>& position) : position_(position) {
-    if (!position.allFinite()) refuse("Point: the position has a NaN or an infinity; give a finite one");
+  explicit Point(const Vector3<Scalar>& position) : position_(position) { refuse_for(reason_against(position)); }
+  static std::string reason_against(const Vector3<Scalar>& position) {
+    return position.allFinite() ? "" : "Point: the position has a NaN or an infinity; give a finite one";
   }
 
   int vertex_count() const noexcept { return 1; }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cmath>
+#include <string>
 
 #include "feeler/core/requirement.hpp"
 #include "feeler/tool/convex_tool.hpp"
@@ -17,10 +18,11 @@ class Segment {
   static constexpr Symmetry symmetry = Symmetry::about_axis;
 
   /// Refuses ends that are equal or not finite.
-  Segment(const Vector3<Scalar>& start, const Vector3<Scalar>& end) : start_(start), end_(end) {
-    if (!start.allFinite() || !end.allFinite())
-      refuse("Segment: an end has a NaN or an infinity; give two finite points");
-    if (start == end) refuse("Segment: both ends are the same point; give two different points");
+  Segment(const Vector3<Scalar>& start, const Vector3<Scalar>& end) : start_(start), end_(end) { refuse_for(reason_against(start, end)); }
+  static std::string reason_against(const Vector3<Scalar>& start, const Vector3<Scalar>& end) {
+    if (!start.allFinite() || !end.allFinite()) return "Segment: an end has a NaN or an infinity; give two finite points";
+    if (start == end) return "Segment: both ends are the same point; give two different points";
+    return {};
   }
 
   int vertex_count() const noexcept { return 2; }

@@ -3,6 +3,7 @@
 
 #include <concepts>
 #include <limits>
+#include <string>
 
 #include "feeler/core/requirement.hpp"
 #include "feeler/tool/box.hpp"
@@ -29,12 +30,7 @@ class SphereSwept {
   static constexpr Symmetry symmetry = symmetry_of<Core>;
 
   /// Refuses a radius that is not finite, or under 1e-7 m: so thin a skin is no more than the margin.
-  SphereSwept(const Core& core, Scalar radius) : core_(core), radius_(radius) {
-    if (!(radius < std::numeric_limits<Scalar>::infinity()))
-      refuse("SphereSwept: the radius is a NaN or infinite; give a finite length");
-    if (!(radius >= Scalar(1) / 10'000'000))
-      refuse("SphereSwept: the radius is under 1e-7 m; give a larger one, or use the core as the tool");
-  }
+  SphereSwept(const Core& core, Scalar radius) : core_(core), radius_(radius) { refuse_for(reason_against(core, radius)); }
   /// A sphere about the origin.
   explicit SphereSwept(Scalar radius)
     requires(symmetry_of<Core> == Symmetry::about_point && std::default_initializable<Core>)
@@ -43,6 +39,19 @@ class SphereSwept {
   SphereSwept(const Vector3<Scalar>& centre, Scalar radius)
     requires(symmetry_of<Core> == Symmetry::about_point && std::constructible_from<Core, const Vector3<Scalar>&>)
       : SphereSwept(Core(centre), radius) {}
+
+  static std::string reason_against(const Core&, Scalar radius) { return reason_against(radius); }
+  static std::string reason_against(Scalar radius) {
+    if (!(radius < std::numeric_limits<Scalar>::infinity())) return "SphereSwept: the radius is a NaN or infinite; give a finite length";
+    if (!(radius >= Scalar(1) / 10'000'000)) return "SphereSwept: the radius is under 1e-7 m; give a larger one, or use the core as the tool";
+    return {};
+  }
+  static std::string reason_against(const Vector3<Scalar>& centre, Scalar radius)
+    requires(symmetry_of<Core> == Symmetry::about_point && std::constructible_from<Core, const Vector3<Scalar>&>)
+  {
+    std::string reason = Core::reason_against(centre);
+    return reason.empty() ? reason_against(radius) : reason;
+  }
 
   const Core& core() const noexcept { return core_; }
   Scalar swept_radius() const noexcept { return radius_; }
