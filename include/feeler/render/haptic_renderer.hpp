@@ -1,6 +1,7 @@
 // The renderer: one call a tick from the haptic pose to the graphic pose and the wrench.
 #pragma once
 
+#include <algorithm>
 #include <limits>
 #include <string>
 
@@ -58,6 +59,13 @@ class HapticRenderer {
   /// @cost  noexcept; no allocation, lock, clock or I/O; bounded by `Settings::maximum_iterations` and `work_budget`
   const Tick<Scalar>& update(const Pose<Scalar>& haptic_pose) noexcept;
 
+  /// A tick of a slow host: `update` at one pose again and again until it is no more `unconverged`, or until less than a `work_budget` is left.
+  /// Between two frames a hand goes farther than one tick follows.
+  /// @param most_work  in the unit of `Settings::work_budget`, about 0.7 µs; it ends within one `update` of that
+  /// @return the last tick, with the work and the iterations of all, and the path of the last alone
+  /// @cost   noexcept; no allocation, lock, clock or I/O; one `update` at least
+  const Tick<Scalar>& update_until_converged(const Pose<Scalar>& haptic_pose, int most_work) noexcept;
+
   /// The result of the last tick.
   const Tick<Scalar>& tick() const noexcept { return tick_; }
 
@@ -112,6 +120,19 @@ const Tick<typename ToolType::Scalar>& HapticRenderer<ToolType, Solver, Method>:
   tick_.path.clear();
   tick_.status = follower_.follow(scene_, target, tick_);
   report(target);
+  return tick_;
+}
+
+template <RigidTool ToolType, QpSolver Solver, ContactMethod<ToolType, Solver> Method>
+const Tick<typename ToolType::Scalar>& HapticRenderer<ToolType, Solver, Method>::update_until_converged(const Pose<Scalar>& haptic_pose,
+                                                                                                        int most_work) noexcept {
+  int work = update(haptic_pose).work, iterations = tick_.iterations;
+  while (tick_.status == TickStatus::unconverged && work <= most_work - settings().work_budget) {
+    work += (std::max)(update(haptic_pose).work, 1);
+    iterations += tick_.iterations;
+  }
+  tick_.work = work;
+  tick_.iterations = iterations;
   return tick_;
 }
 

@@ -36,7 +36,7 @@ struct Tick {
 
   /// The way from the last graphic pose to this one, which is its last pose: between poses the reference point moves on a straight line and
   /// the axes turn at a constant rate, by 3 rad at most and so the shorter way round, free of collision all along. Empty when the tool did not
-  /// move.
+  /// move. After `update_until_converged` it is the way of the last update.
   FixedVector<Pose<Scalar>, path_capacity> path;
 
   int iterations = 0;  ///< linearisations solved
