@@ -57,6 +57,14 @@ void check_hull(const feeler::ConvexPolytope<Scalar>& hull, const Points<Scalar>
   const long double size = static_cast<long double>(
       (points.colwise().maxCoeff() - points.colwise().minCoeff()).norm() + points.cwiseAbs().maxCoeff());
   const long double tolerance = 8 * static_cast<long double>(std::numeric_limits<Scalar>::epsilon()) * size;
+  // Climbing ends at a highest vertex, from wherever it starts.
+  std::mt19937 bits(7);
+  for (int i = 0; i < 20; ++i) {
+    const feeler::Vector3<Scalar> direction = random_vector(bits).template cast<Scalar>();
+    const int from = int(bits() % unsigned(hull.vertex_count()));
+    const Scalar highest = hull.highest(direction), climbed = direction.dot(hull.vertex(hull.climb(direction, from)));
+    BOOST_TEST(climbed >= highest - static_cast<Scalar>(tolerance));
+  }
   for (int v = 0; v < hull.vertex_count(); ++v) {
     const feeler::Vector3<Scalar> vertex = hull.vertex(v);
     BOOST_TEST((points.rowwise() - vertex.transpose()).rowwise().squaredNorm().minCoeff() == Scalar(0));
@@ -72,7 +80,6 @@ void check_hull(const feeler::ConvexPolytope<Scalar>& hull, const Points<Scalar>
   }
   BOOST_TEST(outside <= tolerance);
   // An independent look from many sides: no input point is farther out than the hull.
-  std::mt19937 bits(7);
   for (int i = 0; i < 300; ++i) {
     const Wide d = random_vector(bits).normalized().cast<long double>();
     const long double reach = d.dot(hull.vertex(hull.support(d.cast<Scalar>())).template cast<long double>());

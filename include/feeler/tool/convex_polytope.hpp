@@ -70,6 +70,26 @@ class ConvexPolytope {
   /// @cost  half of that of `support`
   Scalar highest(const Vector3<Scalar>& direction) const noexcept { return vertices_.highest(direction); }
 
+  /// Index of a vertex farthest along a direction, by climbing over edges from a vertex: on a convex hull who has no higher neighbour is highest.
+  /// @cost  some dot products for each edge on the way
+  int climb(const Vector3<Scalar>& direction, int vertex) const noexcept {
+    if (vertex_count() <= few_vertices || neighbours_.empty()) return vertices_.support(direction);
+    Scalar highest = direction.dot(vertices_[vertex]);
+    for (int steps = 0; steps < vertex_count(); ++steps) {
+      int best = vertex;
+      for (int i = neighbour_begin_[std::size_t(vertex)]; i < neighbour_begin_[std::size_t(vertex) + 1]; ++i) {
+        const int next = neighbours_[std::size_t(i)];
+        const Scalar height = direction.dot(vertices_[next]);
+        const bool is_higher = height > highest;
+        highest = is_higher ? height : highest;
+        best = is_higher ? next : best;
+      }
+      if (best == vertex) break;
+      vertex = best;
+    }
+    return vertex;
+  }
+
   int edge_count() const noexcept { return int(edges_.size()); }
   ToolEdge edge(int i) const noexcept { return edges_[std::size_t(i)]; }
   int face_count() const noexcept { return int(normals_.size()); }
@@ -91,6 +111,8 @@ class ConvexPolytope {
     for (int i = 0; i < vertex_count(); ++i) points.row(i) = vertex(i).template cast<Other>().transpose();
     result.vertices_ = SupportBlocks<Other>(points);
     result.edges_ = edges_;
+    result.neighbour_begin_ = neighbour_begin_;
+    result.neighbours_ = neighbours_;
     result.face_begin_ = face_begin_;
     result.face_corners_ = face_corners_;
     const auto cast_all = [](const std::vector<Vector3<Scalar>>& from, std::vector<Vector3<Other>>& to) {
@@ -222,6 +244,7 @@ class ConvexPolytope {
         directions.emplace_back(static_cast<long double>(along.norm()), along.normalized());
       }
     }
+    link_neighbours();
     face_axes_ = without_parallels(axes);
     edge_directions_ = without_parallels(directions);
   }
@@ -246,8 +269,27 @@ class ConvexPolytope {
     return result;
   }
 
+  void link_neighbours() {
+    std::vector<std::vector<int>> neighbours(static_cast<std::size_t>(vertex_count()));
+    for (const ToolEdge& edge : edges_) {
+      neighbours[std::size_t(edge.start)].push_back(edge.end);
+      neighbours[std::size_t(edge.end)].push_back(edge.start);
+    }
+    // Of shapes as fine as their rounding a face may have no outline, and edges are missing.
+    if (std::any_of(neighbours.begin(), neighbours.end(), [](const std::vector<int>& of_vertex) { return of_vertex.size() < 3; })) return;
+    neighbour_begin_.push_back(0);
+    for (const std::vector<int>& of_vertex : neighbours) {
+      neighbours_.insert(neighbours_.end(), of_vertex.begin(), of_vertex.end());
+      neighbour_begin_.push_back(int(neighbours_.size()));
+    }
+  }
+
   SupportBlocks<Scalar> vertices_;
+  static constexpr int few_vertices = 24;  // that are looked at in less time than a climb takes
+
   std::vector<ToolEdge> edges_;
+  std::vector<int> neighbour_begin_;  // by vertex
+  std::vector<int> neighbours_;
   std::vector<int> face_begin_;
   std::vector<int> face_corners_;
   std::vector<Vector3<Scalar>> normals_;

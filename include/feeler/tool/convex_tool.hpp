@@ -55,6 +55,18 @@ typename Tool::Scalar highest_along(const Tool& tool, const Vector3<typename Too
   }
 }
 
+/// The same, found from a vertex that may be near the one that answers, which takes its place: where directions change little from call to call, of
+/// a tool with many vertices a few are looked at. A tool that can do so has a member `climb(direction, vertex)`.
+template <ConvexTool Tool>
+typename Tool::Scalar highest_along(const Tool& tool, const Vector3<typename Tool::Scalar>& direction, int& vertex) noexcept {
+  if constexpr (requires { tool.climb(direction, vertex); }) {
+    vertex = tool.climb(direction, vertex);
+    return direction.dot(Vector3<typename Tool::Scalar>(tool.vertex(vertex)));
+  } else {
+    return highest_along(tool, direction);
+  }
+}
+
 /// The same shape with another scalar: `tool.template cast<Other>()`.
 template <class Tool, class Other>
 using ToolCast = decltype(std::declval<const Tool&>().template cast<Other>());
