@@ -64,8 +64,6 @@ BOOST_AUTO_TEST_CASE(a_bend_ends_a_flat_part_and_its_sides_rise_in_a_valley_alon
     BOOST_TEST(surface.is_flat_across(2));
     BOOST_TEST(surface.rises_across(right, upward) == (slope > 0));
     BOOST_TEST(surface.rises_across(right, Vector(-upward)) == (slope < 0));
-    BOOST_TEST(surface.is_in_plane(surface.neighbour(2), upward));
-    BOOST_TEST(!surface.is_in_plane(surface.neighbour(right), upward));
     // Straight up over the bend a ridge is touched there, and a valley is not; nor is its neighbour clear.
     BOOST_TEST(surface.is_in_edge_cone(right, Vector::UnitZ()) == (slope < 0));
     BOOST_TEST(surface.is_clear_of_neighbour_across(right, Vector::UnitZ()) == (slope < 0));

@@ -3,6 +3,7 @@
 #include <boost/test/unit_test.hpp>
 
 #include <limits>
+#include <memory>
 #include <random>
 #include <set>
 #include <span>
@@ -62,6 +63,8 @@ void check_soup(unsigned seed, const Soup& soup, const Vector& offset, double ro
   const TriangleMesh<double> mesh(soup.vertices, soup.triangles);
   const CheckedObject object(soup.vertices, soup.triangles);
   PlaneCache<double> planes;  // kept from motion to motion, as the renderer does
+  const auto surface = std::make_unique<feeler::WallPlanes<double>>();  // and these from tool to tool: they are seen from all sides
+  surface->clear();
   Tally tally;
   Box tool(Vector(1, 1, 1));
   RandomMotion<Box> random(bits, tool);
@@ -105,7 +108,7 @@ void check_soup(unsigned seed, const Soup& soup, const Vector& offset, double ro
       }
     }
     int work = 0;
-    Sweep<Box, Order> sweep(planes, clearance);
+    Sweep<Box, Order> sweep(planes, clearance, surface.get());
     const auto result = sweep.certify(mesh, moving, std::span<const KnownTriangle<double>>(known), work,
                                       std::numeric_limits<int>::max());
     BOOST_TEST_CONTEXT("motion " << i << " from seed " << seed) {
@@ -416,5 +419,116 @@ BOOST_AUTO_TEST_CASE_TEMPLATE(certifying_allocates_nothing_and_the_count_would_s
   }
 }
 #endif
+
+namespace {
+
+/// A sheet of n×n squares of two triangles, 1 m wide, with corners shaken in its plane, turned in space, and a soup about it.
+Soup sheet_and_soup(std::mt19937& bits, int n, int soup_count) {
+  Soup soup(bits, soup_count + 2 * n * n, Vector::Zero());
+  const Eigen::Matrix3d axes = random_rotation(bits).toRotationMatrix();
+  std::vector<Vector> grid;
+  for (int i = 0; i <= n; ++i) {
+    for (int j = 0; j <= n; ++j) {
+      const bool is_rim = i == 0 || i == n || j == 0 || j == n;
+      const Vector shaken = is_rim ? Vector(Vector::Zero()) : Vector(0.2 / n * random_vector(bits));
+      grid.push_back(axes * Vector(double(i) / n - 0.5 + shaken.x(), double(j) / n - 0.5 + shaken.y(), 0));
+    }
+  }
+  const auto put = [&](int triangle, std::array<int, 3> at) {
+    for (int k = 0; k < 3; ++k) soup.vertices.row(3 * triangle + k) = grid[std::size_t(at[std::size_t(k)])].transpose();
+  };
+  for (int i = 0, triangle = soup_count; i < n; ++i) {
+    for (int j = 0; j < n; ++j) {
+      const int corner = i * (n + 1) + j;
+      put(triangle++, {corner, corner + n + 1, corner + 1});
+      put(triangle++, {corner + 1, corner + n + 1, corner + n + 2});
+    }
+  }
+  return soup;
+}
+
+}  // namespace
+
+BOOST_AUTO_TEST_CASE(what_is_near_a_standing_tool_is_noticed_or_lies_behind_the_plane_of_what_was) {
+  constexpr unsigned seed = 53;
+  BOOST_TEST_MESSAGE("seed " << seed);
+  std::mt19937 bits(seed);
+  constexpr int soup_count = 60, n = 12;
+  const Soup soup = sheet_and_soup(bits, n, soup_count);
+  const TriangleMesh<double> mesh(soup.vertices, soup.triangles);
+  BOOST_TEST(mesh.walls().count() >= 1);
+  const CheckedObject object(soup.vertices, soup.triangles);
+  PlaneCache<double> planes;
+  const auto surface = std::make_unique<feeler::WallPlanes<double>>();
+  surface->clear();
+  int noticed_in_all = 0, hidden = 0, empty = 0;
+  for (int i = 0; i < 4000; ++i) {
+    const Box tool = random_box(bits);
+    RandomMotion<Box> random(bits, tool);
+    random.motion = {};
+    // Just above the middle of one of them.
+    const int under = below(bits, mesh.triangle_count());
+    const Vector middle = mesh.corners(under).rowwise().mean(), up = (i % 2 == 0 ? 1 : -1) * mesh.normal(under);
+    const int lowest = tool.support(random.pose.rotation.inverse() * -up);
+    random.pose.translation = middle + magnitude(bits, -6, -2) * up - random.pose.rotation * tool.vertex(lowest);
+    if (deepest_penetration(object, feeler::test::checked_tool(tool), random.wide().pose_at(0)).depth > 0) continue;
+    const auto standing = random.moving();
+    Clearance<double> clearance;
+    clearance.kept = magnitude(bits, -3.5, -1.5);
+    planes.with_tool().clear();
+    int work = 0;
+    const auto frame = standing.frame_at_start();
+    // The nearest may be known, with the plane that parts it.
+    const WideTool wide_tool = random.wide().tool_at(WideTool(tool), 0);
+    std::vector<WideReal> distance(std::size_t(mesh.triangle_count()));
+    for (int t = 0; t < mesh.triangle_count(); ++t) distance[std::size_t(t)] = closest_features(wide_tool, wide(mesh.corners(t))).distance;
+    std::vector<KnownTriangle<double>> known;
+    struct Front {
+      Vector normal;
+      double height, lowest;
+    };
+    std::vector<Front> fronts;  // planes of what is known or noticed
+    const auto add_front = [&](int t, const Vector& normal) {
+      const Eigen::Matrix3d corners = mesh.corners(t).colwise() - standing.origin();
+      fronts.push_back({normal, (normal.transpose() * corners).maxCoeff(), standing.lowest(normal, frame)});
+    };
+    if (i % 3 == 0) {
+      const int t = int(std::min_element(distance.begin(), distance.end()) - distance.begin());
+      const Eigen::Matrix3d corners = mesh.corners(t).colwise() - standing.origin();
+      const auto closest = feeler::separation(tool, standing.in_tool(corners, frame), {}, clearance.touching);
+      known.push_back({t, {corners, frame.rotation * closest.normal, closest.features, true}});
+      add_front(t, frame.rotation * closest.normal);
+    }
+    Sweep<Box> sweep(planes, clearance, surface.get());
+    const auto noticed = sweep.notice(mesh, standing, std::span<const KnownTriangle<double>>(known), work, std::numeric_limits<int>::max());
+    std::set<int> names;
+    for (const auto& near : noticed) {
+      BOOST_TEST(names.insert(near.triangle).second);
+      BOOST_TEST(distance[std::size_t(near.triangle)] <= WideReal(clearance.kept) + 1e-12L);
+      for (const double side : {1.0, -1.0}) add_front(near.triangle, side * mesh.normal(near.triangle));
+    }
+    if (!known.empty()) {
+      for (const double side : {1.0, -1.0}) add_front(known.front().triangle, side * mesh.normal(known.front().triangle));
+    }
+    noticed_in_all += noticed.size();
+    empty += noticed.empty() ? 1 : 0;
+    BOOST_TEST(noticed.is_all);
+    if (noticed.full()) continue;
+    for (int t = 0; t < mesh.triangle_count(); ++t) {
+      if (distance[std::size_t(t)] > WideReal(clearance.kept) - 1e-12L || names.count(t) > 0 || (!known.empty() && known.front().triangle == t)) continue;
+      const Eigen::Matrix3d corners = mesh.corners(t).colwise() - standing.origin();
+      const bool is_behind = std::any_of(fronts.begin(), fronts.end(), [&](const Front& front) {
+        const double highest = (front.normal.transpose() * corners).maxCoeff();
+        return highest <= front.height + clearance.kept / 900 && highest < front.lowest;
+      });
+      if (!is_behind) BOOST_ERROR("triangle " << t << " at " << distance[std::size_t(t)] << " m of a tool of margin " << clearance.kept << " was not noticed");
+      ++hidden;
+    }
+  }
+  BOOST_TEST_MESSAGE(noticed_in_all << " noticed, " << hidden << " behind others, nothing at " << empty << " poses");
+  BOOST_TEST(noticed_in_all > 1000);
+  BOOST_TEST(hidden > 100);
+  BOOST_TEST(empty > 100);
+}
 
 BOOST_AUTO_TEST_SUITE_END()

@@ -12,6 +12,7 @@
 #include "feeler/contact/patch_triangle.hpp"
 #include "feeler/contact/surface_around.hpp"
 #include "feeler/contact/swept_contact_row.hpp"
+#include "feeler/contact/wall_rim.hpp"
 #include "feeler/core/feature_incidence.hpp"
 #include "feeler/core/fixed_vector.hpp"
 #include "feeler/core/scalar.hpp"
@@ -70,6 +71,7 @@ class ContactPatch {
   bool find(int triangle, const Matrix3<Scalar>& corners, const ClosestPoints<Scalar>& closest, bool keep_ghost,
             Rows& rows) noexcept {
     rows.clear();
+    is_filler_ = false;
     surface_.stand_on(triangle);
     normal_ = closest.normal;
     near_.clear();
@@ -86,10 +88,12 @@ class ContactPatch {
     const bool is_met = std::any_of(rows.begin(), rows.end(), [&](const Row& row) { return row.gap <= close_enough; });
     // Overlapping shapes have no closest points: the deepest vertex may lie beside the triangle, where nothing holds it.
     if (is_met || (closest.is_touching && closest.distance < -seam_ && !rows.empty())) return true;
+    if (!near_.empty() && surface_.is_inside_wall()) return true;
     if (!keep_ghost && !is_in_cone(closest)) {
       if (assumes_valleys_) add_concave_face(closest, rows);
       return !rows.empty();
     }
+    is_filler_ = rows.empty() && near_.size() > 1 && is_own_plane();
     if (rows.full()) rows.pop_back();
     if constexpr (SweptTool<Tool>) {
       rows.push_back(maker_.row_of_closest(closest, triangle_.corners()));
@@ -99,6 +103,8 @@ class ContactPatch {
     return true;
   }
 
+  /// Whether the only row is that of the closest points, in the triangle's own plane: other triangles of its wall hold the tool as well.
+  bool is_filler() const noexcept { return is_filler_; }
   /// After `find`: calls `visit(triangle)` for each triangle in the plane of this one, beside it, that is under a tool vertex no farther from that plane
   /// than `gap` [m]: it holds that vertex. Some are visited more than once.
   template <class Visit>
@@ -110,8 +116,21 @@ class ContactPatch {
       const bool is_inside = triangle_.room_inside(0, vertex) >= -seam_ && triangle_.room_inside(1, vertex) >= -seam_ && triangle_.room_inside(2, vertex) >= -seam_;
       if (is_inside) continue;
       const int under = surface_.triangle_under(vertex, triangle_.corner(0));
-      if (under >= 0 && surface_.is_in_plane(under, triangle_.face_normal())) visit(under);
+      if (under >= 0) visit(under);
     }
+  }
+
+  /// After `find`, of a triangle in a wall: calls `visit(triangle)` for those at the wall's rim where the tool's face over it ends.
+  /// @param is_known  of triangles that share such a point those are preferred
+  template <class IsKnown, class Visit>
+  void visit_rim(const IsKnown& is_known, const Visit& visit) const noexcept {
+    if (surface_.wall() < 0 || near_.size() < 3) return;
+    for_each_near_face([&](const ToolFace<Scalar>& face) {
+      if (-face.normal.dot(normal_) < least_cosine) return;
+      const auto corner = [&](int i) { return surface_.in_world(tool_.vertex(face.vertices[std::size_t(i)]), triangle_.corner(0)); };
+      const Vector outward = world_from_tool_ * face.normal;
+      OutermostAtRim<Scalar, MeshScalar>(surface_.mesh(), surface_.wall(), int(face.vertices.size()), corner, outward).find(is_known, visit);
+    });
   }
 
   /// After `find`, of a triangle whose closest points are a ghost: a neighbour that is nearer to the tool, or -1.
@@ -203,11 +222,16 @@ class ContactPatch {
   }
 
   void add_corners_on_faces(Rows& rows) noexcept {
+    for_each_near_face([&](const ToolFace<Scalar>& face) { add_corners_on_face(face, rows); });
+  }
+  /// Those of which all vertices are.
+  template <class Visit>
+  void for_each_near_face(const Visit& visit) const noexcept {
     for (const int vertex : near_) {
       for (const int f : incidence_.vertex_faces(vertex)) {
         const auto all = incidence_.face_vertices(f);
         if (all.front() != vertex) continue;  // each face once
-        if (std::all_of(all.begin(), all.end(), [this](int v) { return is_near_[index(v)]; })) add_corners_on_face(tool_.face(f), rows);
+        if (std::all_of(all.begin(), all.end(), [this](int v) { return is_near_[index(v)]; })) visit(tool_.face(f));
       }
     }
   }
@@ -218,6 +242,7 @@ class ContactPatch {
     if (-outward.dot(normal_) < least_cosine) return;
     const auto& loop = face.vertices;
     for (int k = 0; k < 3; ++k) {
+      if (surface_.is_inside_wall(k)) continue;
       const Vector corner = triangle_.corner(k);
       const Scalar gap = maker_.on_surface(outward.dot(corner - tool_.vertex(loop[0])));
       if (std::abs(gap) > largest_gap_) continue;
@@ -345,6 +370,7 @@ class ContactPatch {
   const Tool& tool_;
   const FeatureIncidence& incidence_;
   Matrix3<Scalar> world_from_tool_;
+  bool is_filler_ = false;  // see `is_filler()`
   Scalar band_;
   Scalar largest_gap_;  // of a row of features that meet [m]
   Scalar seam_;  // a point so little beside a face counts as over it, or rounding would let it through between two faces [m]

@@ -46,7 +46,22 @@ class SurfaceAround {
 
   void stand_on(int triangle) noexcept { triangle_ = triangle; }
 
-  bool is_flat_across(int edge) const noexcept { return mesh_.topology().edge_convexity(triangle_, edge) == Convexity::flat; }
+  const TriangleMesh<MeshScalar>& mesh() const noexcept { return mesh_; }
+  /// That the triangle belongs to, or -1.
+  int wall() const noexcept { return mesh_.walls().of_triangle(triangle_); }
+  /// @param point   in the tool frame [m]
+  /// @param corner  there, the triangle's first [m]
+  Vector in_world(const Vector& point, const Vector& corner) const noexcept {
+    return world_from_tool_ * (point - corner) + mesh_.vertex(mesh_.triangle(triangle_)[0]).template cast<Scalar>();
+  }
+  /// Whether the surface goes on in the same plane.
+  bool is_flat_across(int edge) const noexcept {
+    return mesh_.topology().edge_convexity(triangle_, edge) == Convexity::flat || (wall() >= 0 && neighbour(edge) >= 0 && mesh_.walls().of_triangle(neighbour(edge)) == wall());
+  }
+  /// Whether a corner of the triangle lies inside of its wall, where it is no corner of the surface.
+  bool is_inside_wall(int corner) const noexcept { return mesh_.walls().is_inside(mesh_.triangle(triangle_)[std::size_t(corner)]); }
+  /// Whether all of them do: then only tool vertices over the wall touch it here.
+  bool is_inside_wall() const noexcept { return is_inside_wall(0) && is_inside_wall(1) && is_inside_wall(2); }
   /// Across an edge; negative where there is not exactly one.
   int neighbour(int edge) const noexcept { return mesh_.topology().neighbour(triangle_, edge); }
 
@@ -71,15 +86,16 @@ class SurfaceAround {
     return -1;
   }
 
-  /// Whether a point that may lie beside the triangle is over the flat part of the surface that it belongs to; past its rim nothing holds.
+  /// Whether a point that may lie beside the triangle is over the wall that it belongs to; past its rim nothing holds.
   /// @param corner  the triangle's first [m]
   [[gnu::flatten, gnu::noinline]]
-  bool is_under(const Vector& point, const Vector& corner) const noexcept { return !walk_towards(point, corner).ends_at_rim; }
+  bool is_under(const Vector& point, const Vector& corner) const noexcept { return find_under(point, corner) >= 0; }
 
-  /// The other triangle that a point is over, or the one where the walk to it over the flat part of the surface ends; -1 if that ends at once.
+  /// The other triangle of the wall that a point is over, or for one beside the wall that at the rim where a walk to it ends; -1 if that ends at once.
   /// @param corner  the triangle's first [m]
   int triangle_under(const Vector& point, const Vector& corner) const noexcept {
-    const int triangle = walk_towards(point, corner).triangle;
+    int triangle = find_under(point, corner);
+    if (triangle < 0) triangle = walk_towards(in_world(point, corner));
     return triangle != triangle_ ? triangle : -1;
   }
 
@@ -107,39 +123,27 @@ class SurfaceAround {
       return direction_world.dot(along) > Scalar(0) && normal_world.dot(along) > tolerance * along.norm();
     });
   }
-  /// Whether another triangle lies in the plane of this one.
-  /// @param face_normal  of this one
-  bool is_in_plane(int other, const Vector& face_normal) const noexcept {
-    const Vector normal_world = world_from_tool_ * face_normal;
-    const Vector start_world = mesh_.vertex(mesh_.triangle(triangle_)[0]).template cast<Scalar>();
-    const auto& corners = mesh_.triangle(other);
-    return std::all_of(corners.begin(), corners.end(), [&](int corner) {
-      const Vector along = mesh_.vertex(corner).template cast<Scalar>() - start_world;
-      return std::abs(normal_world.dot(along)) <= tolerance * along.norm();
-    });
-  }
 
  private:
-  struct Walk {
-    int triangle;
-    bool ends_at_rim;  // of the flat part, before the point is reached
-  };
+  /// The triangle of the wall, or this one where it is in none, that a point is over, or -1.
+  int find_under(const Vector& point, const Vector& corner) const noexcept {
+    const Vector point_world = in_world(point, corner);
+    if (edge_towards(mesh_, triangle_, point_world, seam_) < 0) return triangle_;
+    return wall() >= 0 ? triangle_of_wall_under(mesh_, wall(), point_world, seam_) : -1;
+  }
 
-  /// Over the flat part of the surface from the triangle to a point.
-  Walk walk_towards(const Vector& point, const Vector& corner) const noexcept {
+  /// Where a walk over the wall to a point ends: at the rim, or after some triangles.
+  int walk_towards(const Vector& point_world) const noexcept {
     constexpr int longest_walk = 16;
-    const Vector origin = mesh_.vertex(mesh_.triangle(triangle_)[0]).template cast<Scalar>();
-    const Vector point_world = world_from_tool_ * (point - corner) + origin;
     int triangle = triangle_;
     for (int step = 0; step < longest_walk; ++step) {
       const int edge = edge_towards(mesh_, triangle, point_world, seam_);
-      if (edge < 0) break;
-      if (mesh_.topology().edge_convexity(triangle, edge) != Convexity::flat) return {triangle, true};
-      triangle = mesh_.topology().neighbour(triangle, edge);
+      const int next = edge >= 0 ? mesh_.topology().neighbour(triangle, edge) : -1;
+      if (next < 0 || wall() < 0 || mesh_.walls().of_triangle(next) != wall()) break;
+      triangle = next;
     }
-    return {triangle, false};
+    return triangle;
   }
-
   Vector3<MeshScalar> direction_of(const Vector& normal) const noexcept { return (world_from_tool_ * normal).template cast<MeshScalar>(); }
 
   const TriangleMesh<MeshScalar>& mesh_;

@@ -30,6 +30,7 @@ struct WorkingPair {
   PairState state = PairState::left_out;
   bool is_ghost = false;    ///< at the certified pose a neighbour was nearer, and its plane means nothing
   bool keeps_ghost = false; ///< it blocked although its row looked like a ghost: give it a row all the same
+  bool is_filler = false;   ///< its wall is held elsewhere as well: `ContactPatch::is_filler`
 
   /// It holds the tool, or blocks a motion.
   void note_use() noexcept { unused_ticks = 0; }
@@ -58,6 +59,7 @@ class WorkingSet {
   static constexpr int capacity = pair_capacity;
   /// A shaft that fits touches its hole all around, and a few of those triangles hold it.
   static constexpr int longest_unused = 1000;
+  static constexpr int longest_unused_filler = 8;
 
   int size() const noexcept { return pairs_.size(); }
   Pair& operator[](int i) noexcept { return pairs_[i]; }
@@ -115,7 +117,8 @@ class WorkingSet {
       ++pair.unused_ticks;
       if (noticed > Scalar(0) && pair.slack < noticed) continue;
       const bool touches = pair.slack < touch && pair.state != PairState::repeats;
-      if (pair.unused_ticks > (touches ? longest_unused : 1)) pairs_.swap_remove(i);
+      const int longest = !touches ? 1 : pair.is_filler ? longest_unused_filler : longest_unused;
+      if (pair.unused_ticks > longest) pairs_.swap_remove(i);
     }
   }
 

@@ -17,6 +17,7 @@
 #include "feeler/object/mesh_topology.hpp"
 #include "feeler/object/triangle_normal.hpp"
 #include "feeler/object/vertex_weld.hpp"
+#include "feeler/object/walls.hpp"
 
 namespace feeler {
 
@@ -82,6 +83,7 @@ class TriangleMesh {
   const Eigen::AlignedBox<Scalar, 3>& bounds() const noexcept { return bounds_; }
   const MeshTopology& topology() const noexcept { return topology_; }
   const Bvh<Scalar>& bvh() const noexcept { return bvh_; }
+  const Walls<Scalar>& walls() const noexcept { return walls_; }
   const MeshReport& report() const noexcept { return report_; }
 
  private:
@@ -98,6 +100,7 @@ class TriangleMesh {
     topology_ = MeshTopology(vertices_, triangles_, report_);
     const Vector3<Scalar> middle = (bounds_.min)() / 2 + (bounds_.max)() / 2;  // the sum could overflow
     bvh_ = Bvh<Scalar>(vertices_, triangles_, middle);
+    walls_ = Walls<Scalar>(vertices_, triangles_, topology_, bvh_, bounds_.sizes().maxCoeff());
     report_.triangles = triangle_count();
     report_.vertices = vertex_count();
     for (int i = 0; i < triangle_count(); ++i)
@@ -133,6 +136,7 @@ class TriangleMesh {
   Eigen::AlignedBox<Scalar, 3> bounds_;
   MeshTopology topology_;
   Bvh<Scalar> bvh_;
+  Walls<Scalar> walls_;
   MeshReport report_;
 };
 

@@ -11,7 +11,6 @@ namespace feeler {
 template <class Scalar>
 struct Clearance {
   Scalar kept = Scalar(1e-7);        ///< separation required wherever there is that much to begin with [m]
-  Scalar noticed = kept;             ///< what comes nearer and is not known is told: it may be what holds the tool [m]
   Scalar rounding = Scalar(0);       ///< of the poses that are returned: where there is that much to begin with, no motion leaves less [m]
   Scalar allowance = Scalar(5e-12);  ///< overlap accepted where there is no clearance at all; rounding, never accumulated [m]
   Scalar touching = Scalar(1e-8);    ///< see `touching_distance` [m]

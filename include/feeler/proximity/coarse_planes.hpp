@@ -138,10 +138,10 @@ class CoarsePlanes {
     return sum;
   }
 
-  /// Gives away what the rounding of normals, corners and heights could gain.
+  /// Gives away what the rounding of normals, corners and heights could gain: with a unit of u, 5u times half the extent at most.
   float rounded_down(Scalar value) const noexcept {
     const auto rounded = float(value);
-    return rounded - 8 * std::numeric_limits<float>::epsilon() * (std::abs(rounded) + extent_);
+    return rounded - std::numeric_limits<float>::epsilon() * (std::abs(rounded) + 2 * extent_);
   }
 
   Vector3<Scalar> to_boxes_;

@@ -49,7 +49,8 @@ struct PlaneOnMotion : HeightOnMotion<Scalar> {
   void go_on(const Vector3<Scalar>& shift) noexcept { this->start = this->last - normal.dot(shift); }
   template <class Moving>
   void end(const Moving& moving, const MotionFrame<Scalar>& frame) noexcept {
-    this->end_at(moving.lowest(normal, frame), moving.sagitta(normal, frame.time));
+    if (moving.is_still()) this->end_at(this->start, Scalar(0));
+    else this->end_at(moving.lowest(normal, frame), moving.sagitta(normal, frame.time));
   }
   /// Whether it parts the tool over the whole motion from what is up to `height` high along it, though it may not be `kept` away.
   bool parts_closely(Scalar height, const Clearance<Scalar>& clearance) const noexcept {
@@ -72,6 +73,7 @@ class BoxOnMotion {
   }
   template <class Moving>
   void end(const Moving& moving, const MotionFrame<Scalar>& frame) noexcept {
+    if (moving.is_still()) return for_each_side([](int, Scalar, auto& side) { side.end_at(side.start, Scalar(0)); });
     std::array<Scalar, 3> sagittas;
     for (int axis = 0; axis < 3; ++axis) sagittas[index(axis)] = moving.sagitta_along_axis(axis, frame.time);
     for_each_side([&](int axis, Scalar sign, auto& side) { side.end_at(moving.lowest_along_axis(axis, sign, frame), sagittas[index(axis)]); });

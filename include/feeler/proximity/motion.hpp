@@ -29,6 +29,13 @@ typename Tool::Scalar lowest_above(const Tool& tool, const Vector3<typename Tool
   return -highest_along(tool, Vector3<typename Tool::Scalar>(-normal)) - normal.dot(point);
 }
 
+/// The same, found from a vertex near it, as `highest_along` has it.
+template <ConvexTool Tool>
+typename Tool::Scalar lowest_above(const Tool& tool, const Vector3<typename Tool::Scalar>& point,
+                                   const Vector3<typename Tool::Scalar>& normal, int& vertex) noexcept {
+  return -highest_along(tool, Vector3<typename Tool::Scalar>(-normal), vertex) - normal.dot(point);
+}
+
 /// Where the tool is at one time of a motion: axes `rotation`, reference point `shift` away from the start [m].
 template <class Scalar>
 struct MotionFrame {
@@ -64,6 +71,8 @@ class MovingTool {
   Scalar radius() const noexcept { return radius_; }
   /// Bound on the path of every point of the tool, or of its core, over the whole motion [m].
   Scalar length() const noexcept { return distance_ + turning_; }
+  /// Whether it is no motion: the tool stands where it is.
+  bool is_still() const noexcept { return !(distance_ > Scalar(0)) && !(angle_ > Scalar(0)); }
 
   Pose<Scalar> pose_at(Scalar time) const noexcept { return moved(pose_, motion_ * time); }
   Frame frame_at(Scalar time) const noexcept {
@@ -83,6 +92,10 @@ class MovingTool {
   /// Least height of the tool along a world normal: min n·x over its points x, relative to `origin()` [m].
   Scalar lowest(const Vector& normal, const Frame& frame) const noexcept {
     return lowest_in_tool(frame.rotation.transpose() * normal) + normal.dot(frame.shift) - swept_radius(tool_);
+  }
+  /// The same, found from a vertex near it.
+  Scalar lowest(const Vector& normal, const Frame& frame, int& vertex) const noexcept {
+    return lowest_above(tool_, reference_, Vector(frame.rotation.transpose() * normal), vertex) + normal.dot(frame.shift) - swept_radius(tool_);
   }
   /// The same along a world axis, or against it where `sign` is −1.
   Scalar lowest_along_axis(int axis, Scalar sign, const Frame& frame) const noexcept {

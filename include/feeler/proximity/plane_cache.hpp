@@ -17,7 +17,7 @@ namespace feeler {
 /// World normals of separating planes, from tick to tick, and their limits over the motion at hand; and where queries about triangles that
 /// none of them passed may start.
 ///
-/// A plane with normal n parts the tool from every y with n·y ≤ limit by `kept` over the whole motion, and by `noticed` at its end. A cache belongs to one tool and one mesh.
+/// A plane with normal n parts the tool from every y with n·y ≤ limit by `kept` over the whole motion. A cache belongs to one tool and one mesh.
 /// Against a wall that the tool touches no plane keeps that distance; there `parts_closely` asks for no more than there was at the start.
 template <class ScalarType>
 class PlaneCache {
@@ -43,7 +43,7 @@ class PlaneCache {
   /// Adds a plane in place of the least useful one and finds its limit; returns its position.
   template <class Moving>
   int add(const Vector3<Scalar>& normal, const Moving& moving, const MotionFrame<Scalar>& start,
-          const MotionFrame<Scalar>& end, Scalar kept, Scalar noticed = Scalar(0)) noexcept {
+          const MotionFrame<Scalar>& end, Scalar kept) noexcept {
     int place = size_ < capacity ? size_++ : 0;
     if (size_ == capacity && place == 0) {
       for (int i = 1; i < capacity; ++i) {
@@ -54,7 +54,7 @@ class PlaneCache {
     plane.normal = normal;
     plane.hits = 2;
     plane.begin(moving, start);
-    plane.end(moving, end, kept, noticed);
+    plane.end(moving, end, kept);
     return place;
   }
 
@@ -73,8 +73,8 @@ class PlaneCache {
   }
   /// Finds the limits for a motion that ends at a frame, and may have ended later before.
   template <class Moving>
-  void end(const Moving& moving, const MotionFrame<Scalar>& end, Scalar kept, Scalar noticed = Scalar(0)) noexcept {
-    for (int i = 0; i < size_; ++i) planes_[index(i)].end(moving, end, kept, noticed);
+  void end(const Moving& moving, const MotionFrame<Scalar>& end, Scalar kept) noexcept {
+    for (int i = 0; i < size_; ++i) planes_[index(i)].end(moving, end, kept);
     box_.end(moving, end);
     axes_at_end_ = end.rotation;
     shift_ = end.shift;
@@ -93,9 +93,9 @@ class PlaneCache {
     int hits = 0;
 
     template <class Moving>
-    void end(const Moving& moving, const MotionFrame<Scalar>& frame, Scalar kept, Scalar noticed) noexcept {
+    void end(const Moving& moving, const MotionFrame<Scalar>& frame, Scalar kept) noexcept {
       PlaneOnMotion<Scalar>::end(moving, frame);
-      limit = (std::min)(this->least - kept, this->last - noticed);
+      limit = this->least - kept;
     }
   };
 

@@ -18,6 +18,7 @@
 #include "feeler/proximity/motion.hpp"
 #include "feeler/proximity/passage.hpp"
 #include "feeler/proximity/plane_cache.hpp"
+#include "feeler/proximity/wall_planes.hpp"
 #include "feeler/proximity/traversal_order.hpp"
 #include "feeler/proximity/unpassed_triangles.hpp"
 
@@ -39,11 +40,16 @@ struct Blocker {
   WitnessFeatures features = {};  ///< on which the last query ended
 };
 
-/// A triangle that a sweep was not told of and that is near where the motion ends.
+/// A triangle near a tool that was not known.
 struct Noticed {
   int triangle = -1;
   int piece = 0;  ///< of the tool
-  WitnessFeatures features = {};  ///< on which the last query ended
+  WitnessFeatures features = {};  ///< on which its query ended
+};
+
+/// What was not known near a tool: some of it where it is much.
+struct NoticedTriangles : FixedVector<Noticed, 24> {
+  bool is_all = true;  ///< false where the work limit was reached before all was looked at
 };
 
 /// Result of a sweep: the motion is free of collision on [0, time]. That is less than the whole where something blocks, or the work ran low.
@@ -53,7 +59,6 @@ struct SweepResult {
 
   Scalar time = Scalar(1);
   FixedVector<Blocker<Scalar>, blocker_capacity> blockers;
-  FixedVector<Noticed, blocker_capacity> noticed;  ///< nearer than `Clearance::noticed` at the end of a motion that nothing blocks; some of them where they are many
   bool is_exhausted = false;  ///< the work limit was reached: nothing is certified, time is 0; the blockers found so far are real
 
   bool is_whole() const noexcept { return blockers.empty() && time >= Scalar(1); }
@@ -87,8 +92,10 @@ class Sweep {
   using Scalar = typename Tool::Scalar;
   using Vector = Vector3<Scalar>;
 
-  Sweep(PlaneCache<Scalar>& planes, const Clearance<Scalar>& clearance) noexcept
-      : planes_(planes), clearance_(clearance) {}
+  /// @param walls  remembered planes of the object's walls, if any
+  /// @param piece    of the tool
+  Sweep(PlaneCache<Scalar>& planes, const Clearance<Scalar>& clearance, WallPlanes<Scalar>* walls = nullptr, int piece = 0) noexcept
+      : planes_(planes), clearance_(clearance), walls_(walls), piece_(piece) {}
 
   /// @param known   triangles to examine first, exactly; the traversal skips them
   /// @param work    grows by the work done
@@ -105,16 +112,41 @@ class Sweep {
     first_blocked_ = first_blocked;
     begin(mesh, moving, until);
     for (const KnownTriangle<Scalar>& pair : known) {
-      if (passes(pair.state.corners, moving, true)) continue;
+      if (is_parted(mesh, pair.triangle, moving, work) || passes(pair.state.corners, moving)) continue;
       examine(pair.triangle, pair.state, moving, result, work);
       if (work > limit) return give_up(result);
     }
-    std::uint64_t marks = 0;  // a bit for every 64th triangle: most are told from the known by it
-    const auto mark_of = [](int triangle) { return std::uint64_t(1) << (unsigned(triangle) % 64U); };
-    for (const KnownTriangle<Scalar>& pair : known) marks |= mark_of(pair.triangle);
-    const auto is_known = [&](int triangle) { return (marks & mark_of(triangle)) != 0 && is_among(triangle, known); };
-    const auto look_at = [&](int triangle, const Matrix3<Scalar>& corners) {
+    const auto is_known = known_by_number();
+    const auto measure = [&](int triangle, const Matrix3<Scalar>& corners) {
+      const int blockers = result.blockers.size();
       examine(triangle, {corners, Vector::Zero(), planes_.features().recall_or_guess(triangle), false}, moving, result, work);
+      return result.blockers.size() > blockers;
+    };
+    // A tool meets the inside of a wall with the vertex that is lowest: what is below that tells when.
+    const auto is_wall_parted = [&](int wall, bool is_inside) {
+      Scalar parted = walls_->parts_wall_until(mesh, wall, moving, start_, end_, clearance_);
+      if (parted >= end_.time) return true;
+      if (parted < Scalar(0)) return false;
+      if (walls_->is_asked_first(mesh, wall, moving, start_)) {
+        for (const Scalar time : {parted, end_.time}) {
+          const int triangle = walls_->triangle_below(mesh, wall, moving, start_, time);
+          if (triangle < 0 || is_known(triangle)) continue;
+          if (!measure(triangle, mesh.corners(triangle).template cast<Scalar>().colwise() - moving.origin())) continue;
+          walls_->meet(wall);
+          parted = walls_->parts_wall_until(mesh, wall, moving, start_, end_, clearance_);
+          if (parted >= end_.time) return true;
+          break;
+        }
+      }
+      if (!is_inside || !walls_->has_met(wall)) return false;
+      result.time = (std::min)(result.time, parted);
+      return true;
+    };
+    const auto look_at = [&](int triangle, const Matrix3<Scalar>& corners) {
+      const int wall = walls_ != nullptr ? mesh.walls().of_triangle(triangle) : Walls<MeshScalar>::none;
+      const auto& vertices = mesh.triangle(triangle);
+      const auto is_inside = [&mesh](int vertex) { return mesh.walls().is_inside(vertex); };
+      if (wall < 0 || !is_wall_parted(wall, std::all_of(vertices.begin(), vertices.end(), is_inside))) measure(triangle, corners);
       return true;
     };
     int low = limit - (limit - work) / 8;
@@ -126,9 +158,38 @@ class Sweep {
       set_end(moving, end_.time / 4);
       return true;
     };
-    const bool is_done = traverse(mesh, moving, work, is_known, look_at, may_go_on);
+    const bool is_done = traverse(mesh, moving, work, is_known, is_wall_parted, look_at, may_go_on);
     count_hits();
     return is_done ? result : give_up(result);
+  }
+
+  /// The triangles nearer than `Clearance::kept` to a tool that stands still, but for those known and those hidden behind the plane of one that is:
+  /// what is no nearer than that one, as seen along its normal, holds the tool no better.
+  /// @param known  each with a plane that parts it
+  template <class MeshScalar>
+  NoticedTriangles notice(const TriangleMesh<MeshScalar>& mesh, const MovingTool<Tool>& standing, std::span<const KnownTriangle<Scalar>> known,
+                          int& work, int limit) noexcept {
+    NoticedTriangles noticed;
+    known_ = known;
+    may_be_near_ = false;
+    begin(mesh, standing, Scalar(1));
+    const auto look_at = [&](int triangle, const Matrix3<Scalar>& corners) {
+      if (is_behind_known(corners, standing, work)) return true;
+      ++work;
+      const auto closest = gjk(standing.tool(), standing.in_tool(corners, start_), planes_.features().recall_or_guess(triangle), clearance_.touching);
+      planes_.features().remember(triangle, closest.features);
+      if (!closest.is_touching && closest.distance > clearance_.kept) {
+        add_plane(start_.rotation * closest.normal, standing);
+        return true;
+      }
+      // Of a wall one triangle tells as much as all that it is cut into.
+      if (walls_ != nullptr) walls_->know(mesh, triangle, standing, start_);
+      return noticed.push_back({triangle, 0, closest.features});
+    };
+    const auto is_wall_parted = [&](int wall, bool) { return walls_->parts_wall(mesh, wall, standing, start_, end_, clearance_); };
+    noticed.is_all = traverse(mesh, standing, work, known_by_number(), is_wall_parted, look_at, [&] { return work <= limit; }) || noticed.full();
+    count_hits();
+    return noticed;
   }
 
   /// Whether single planes part the tool over the whole motion from every triangle. They are looked for at its start alone: false may mean
@@ -136,21 +197,30 @@ class Sweep {
   /// @param work, limit  as in `certify`
   template <class MeshScalar>
   bool parts(const TriangleMesh<MeshScalar>& mesh, const MovingTool<Tool>& moving, int& work, int limit) noexcept {
+    known_ = {};
     begin(mesh, moving, Scalar(1));
     const auto is_parted = [&](int, const Matrix3<Scalar>& corners) {
       ++work;
       const auto closest = gjk(moving.tool(), moving.in_tool(corners, start_), {}, clearance_.touching);
       if (closest.is_touching) return false;
       add_plane(start_.rotation * closest.normal, moving);
-      return passes(corners, moving, false);
+      return passes(corners, moving);
     };
-    const bool is_done = traverse(mesh, moving, work, [](int) { return false; }, is_parted, [&] { return work <= limit; });
+    const auto none_is_known = [](int) { return false; };
+    const auto none_is_parted = [](int, bool) { return false; };
+    const bool is_done = traverse(mesh, moving, work, none_is_known, none_is_parted, is_parted, [&] { return work <= limit; });
     count_hits();
     return is_done;
   }
 
  private:
   using Frame = MotionFrame<Scalar>;
+
+  /// A plane that parts a known triangle.
+  struct KnownPlane {
+    Vector normal;
+    Scalar height;  // of that triangle, relative to the motion's origin [m]
+  };
 
   template <class MeshScalar>
   void begin(const TriangleMesh<MeshScalar>& mesh, const MovingTool<Tool>& moving, Scalar until) noexcept {
@@ -159,22 +229,50 @@ class Sweep {
     planes_.age();
     planes_.with_tool().age();
     planes_.begin(moving, start_);
+    if (!may_be_near_) find_known_planes(moving);
+    if (walls_ != nullptr) {
+      walls_->begin(mesh, piece_, moving, start_, may_be_near_);
+      for (const KnownTriangle<Scalar>& pair : known_) walls_->know(mesh, pair.triangle, moving, start_);
+    }
     set_end(moving, until);
   }
 
   /// Calls `visit(triangle, its corners relative to the motion's origin)` for every triangle not `is_known` that no cached plane passes, and
   /// `may_go_on()` between, until one call is false; true when it came to the end.
-  template <class MeshScalar, class IsKnown, class Visit, class MayGoOn>
+  template <class MeshScalar, class IsKnown, class IsWallParted, class Visit, class MayGoOn>
   [[gnu::flatten, gnu::noinline]]
-  bool traverse(const TriangleMesh<MeshScalar>& mesh, const MovingTool<Tool>& moving, int& work, const IsKnown& is_known, const Visit& visit,
-                const MayGoOn& may_go_on) noexcept {
+  bool traverse(const TriangleMesh<MeshScalar>& mesh, const MovingTool<Tool>& moving, int& work, const IsKnown& is_known,
+                const IsWallParted& is_wall_parted, const Visit& visit, const MayGoOn& may_go_on) noexcept {
     const auto look_at = [&](int triangle) {
-      if (is_known(triangle)) return true;
+      if (is_known(triangle) || is_parted(mesh, triangle, moving, work)) return true;
       const Matrix3<Scalar> corners = mesh.corners(triangle).template cast<Scalar>().colwise() - moving.origin();
-      return passes(corners, moving, false) || visit(triangle, corners);
+      return passes(corners, moving) || visit(triangle, corners);
     };
-    const auto plane_count = [this] { return planes_.size(); };
-    return visit_unpassed(mesh.bvh(), coarse_, plane_count, Order(moving.motion().linear.template cast<float>()), work, look_at, may_go_on);
+    const auto plane_count = [this] { return known_planes_.size() + planes_.size(); };
+    const auto sift = [&](int node, auto& passed) {
+      if (walls_ == nullptr || mesh.walls().count() == 0) return;
+      const auto& walls = mesh.walls().under(node);
+      for (std::size_t i = 0; i < passed.size(); ++i) {
+        if (passed[i] == 0 && walls[i] >= 0 && is_wall_parted(walls[i], mesh.walls().is_inside(node, i))) passed[i] = -1;
+      }
+      count_evaluations(work);
+    };
+    return visit_unpassed(mesh.bvh(), coarse_, plane_count, Order(moving.motion().linear.template cast<float>()), work, sift, look_at, may_go_on);
+  }
+
+  /// Whether a remembered plane parts the tool from a triangle.
+  template <class MeshScalar>
+  bool is_parted(const TriangleMesh<MeshScalar>& mesh, int triangle, const MovingTool<Tool>& moving, int& work) noexcept {
+    if (walls_ == nullptr) return false;
+    const bool is_parted = walls_->parts_triangle(mesh, triangle, moving, start_, end_, clearance_);
+    count_evaluations(work);
+    return is_parted;
+  }
+  void count_evaluations(int& work) noexcept {
+    constexpr int evaluations_per_work = 16;
+    evaluations_ += walls_->take_evaluations();
+    work += evaluations_ / evaluations_per_work;
+    evaluations_ %= evaluations_per_work;
   }
 
   static SweepResult<Scalar> give_up(SweepResult<Scalar>& result) noexcept {
@@ -183,8 +281,14 @@ class Sweep {
     return result;
   }
 
-  static bool is_among(int triangle, std::span<const KnownTriangle<Scalar>> known) noexcept {
-    return std::any_of(known.begin(), known.end(), [triangle](const auto& k) { return k.triangle == triangle; });
+  /// Tells whether a triangle is known.
+  auto known_by_number() const noexcept {
+    const auto mark_of = [](int triangle) { return std::uint64_t(1) << (unsigned(triangle) % 64U); };
+    std::uint64_t marks = 0;  // a bit for every 64th triangle: most are told from the known by it
+    for (const KnownTriangle<Scalar>& pair : known_) marks |= mark_of(pair.triangle);
+    return [this, marks, mark_of](int triangle) {
+      return (marks & mark_of(triangle)) != 0 && std::any_of(known_.begin(), known_.end(), [triangle](const auto& pair) { return pair.triangle == triangle; });
+    };
   }
 
   [[gnu::flatten, gnu::noinline]]
@@ -193,10 +297,9 @@ class Sweep {
     if (!state.is_exact && is_behind_known(state.corners, moving, work)) return;
     const Passage<Scalar> passage = pass(moving, state, start_, end_, clearance_, work, first_blocked_);
     if (!passage.is_blocked) {
-      if (!state.is_exact && passage.slack < clearance_.noticed) result.noticed.push_back({triangle, 0, passage.features});
       if (passage.normal.squaredNorm() > Scalar(0) && !state.is_exact) {
         add_plane(passage.normal, moving);
-        if (passage.turns) planes_.with_tool().add(end_.rotation.transpose() * passage.normal, moving, start_, end_, clearance_.kept, clearance_.noticed);
+        if (passage.turns) planes_.with_tool().add(end_.rotation.transpose() * passage.normal, moving, start_, end_, clearance_.kept);
         planes_.features().remember(triangle, passage.features);
       }
       return;
@@ -217,11 +320,10 @@ class Sweep {
     constexpr int triangles_per_work = 4;
     hidden_ = (hidden_ + 1) % triangles_per_work;
     if (hidden_ == 0) ++work;
-    const Scalar flat = clearance_.noticed / 1000;
     for (const KnownTriangle<Scalar>& wall : known_) {
       PlaneOnMotion<Scalar> plane{wall.state.normal};
       const Scalar height = highest_corner(corners, plane.normal);
-      if (!(height <= highest_corner(wall.state.corners, plane.normal) + flat) || plane.normal.isZero(Scalar(0))) continue;
+      if (!(height <= highest_corner(wall.state.corners, plane.normal) + flat()) || plane.normal.isZero(Scalar(0))) continue;
       plane.begin(moving, start_);
       plane.end(moving, end_);
       if (plane.parts_closely(height, clearance_)) return true;
@@ -233,57 +335,80 @@ class Sweep {
   [[gnu::flatten, gnu::noinline]]
   void set_end(const MovingTool<Tool>& moving, Scalar time) noexcept {
     end_ = moving.frame_at(time);
-    planes_.end(moving, end_, clearance_.kept, clearance_.noticed);
-    planes_.with_tool().set_motion(moving, start_, end_, clearance_.kept, clearance_.noticed);
-    const Scalar around = (std::max)(clearance_.kept, clearance_.noticed);
-    for (int k = 0; k < 3; ++k) coarse_.set_sides(k, planes_.box().lower(k) - around, planes_.box().upper(k) + around);
-    for (int i = 0; i < planes_.size(); ++i) coarse_.set_plane(i, planes_.normal(i), planes_.limit(i));
+    planes_.end(moving, end_, clearance_.kept);
+    planes_.with_tool().set_motion(moving, start_, end_, clearance_.kept);
+    if (walls_ != nullptr) walls_->end(end_);
+    const Scalar kept = clearance_.kept;
+    for (int k = 0; k < 3; ++k) coarse_.set_sides(k, planes_.box().lower(k) - kept, planes_.box().upper(k) + kept);
+    for (int i = 0; i < known_planes_.size(); ++i) coarse_.set_plane(i, known_planes_[i].normal, known_planes_[i].height);
+    for (int i = 0; i < planes_.size(); ++i) coarse_.set_plane(known_planes_.size() + i, planes_.normal(i), planes_.limit(i));
   }
 
   [[gnu::flatten, gnu::noinline]]
   void add_plane(const Vector& normal, const MovingTool<Tool>& moving) noexcept {
     count_hits();
-    const int i = planes_.add(normal, moving, start_, end_, clearance_.kept, clearance_.noticed);
-    coarse_.set_plane(i, normal, planes_.limit(i));
+    const int i = planes_.add(normal, moving, start_, end_, clearance_.kept);
+    coarse_.set_plane(known_planes_.size() + i, normal, planes_.limit(i));
   }
 
+  /// The planes that part the tool from known triangles near it: what lies behind one is hidden, box by box.
+  void find_known_planes(const MovingTool<Tool>& standing) noexcept {
+    known_planes_.clear();
+    for (const KnownTriangle<Scalar>& known : known_) {
+      if (known_planes_.full()) break;
+      const Vector& normal = known.state.normal;
+      const auto is_alike = [&](const KnownPlane& other) { return other.normal.dot(normal) > Scalar(1) - Scalar(1e-12); };
+      if (normal.isZero(Scalar(0)) || std::any_of(known_planes_.begin(), known_planes_.end(), is_alike)) continue;
+      const Scalar height = highest_corner(known.state.corners, normal) + flat(), slack = standing.lowest(normal, start_) - height;
+      if (slack > -2 * clearance_.allowance && slack < 2 * clearance_.kept) known_planes_.push_back({normal, height});
+    }
+  }
+  /// By how much a triangle may rise from a plane and lie in it still [m].
+  Scalar flat() const noexcept { return clearance_.kept / 1000; }
+
   void count_hits() noexcept {
-    coarse_.take_hits(planes_.size(), [this](int i, int hits) { planes_.count_hits(i, hits); });
+    coarse_.take_hits(known_planes_.size() + planes_.size(), [this](int i, int hits) {
+      if (i >= known_planes_.size()) planes_.count_hits(i - known_planes_.size(), hits);
+    });
   }
 
   [[gnu::flatten, gnu::noinline]]
-  bool passes(const Matrix3<Scalar>& corners, const MovingTool<Tool>& moving, bool is_known) noexcept {
-    if (last_ < planes_.size() && passes(corners, last_, is_known)) return true;
+  bool passes(const Matrix3<Scalar>& corners, const MovingTool<Tool>& moving) noexcept {
+    if (last_ < planes_.size() && passes(corners, last_)) return true;
     const int turning = planes_.with_tool().parting(corners);
     if (turning >= 0) {
       if (planes_.with_tool().lend(turning)) add_plane(planes_.with_tool().normal_at_end(turning), moving);
       return true;
     }
     for (int i = 0; i < planes_.size(); ++i) {
-      if (i == last_ || !passes(corners, i, is_known)) continue;
+      if (i == last_ || !passes(corners, i)) continue;
       last_ = i;
       return true;
     }
     return false;
   }
 
-  /// Whether one plane passes a triangle; one that is known may be nearer than what is noticed.
-  bool passes(const Matrix3<Scalar>& corners, int i, bool is_known) noexcept {
+  bool passes(const Matrix3<Scalar>& corners, int i) noexcept {
     const Scalar height = highest_corner(corners, planes_.normal(i));
-    if (!(height <= planes_.limit(i) || ((is_known || !(clearance_.noticed > Scalar(0))) && planes_.parts_closely(i, height, clearance_)))) return false;
+    if (!(height <= planes_.limit(i) || (may_be_near_ && planes_.parts_closely(i, height, clearance_)))) return false;
     planes_.count_hits(i, 1);
     return true;
   }
 
   PlaneCache<Scalar>& planes_;
   Clearance<Scalar> clearance_;
+  WallPlanes<Scalar>* walls_;
+  int piece_;
+  int evaluations_ = 0;  // of heights above remembered planes, since the work last grew for it
   std::span<const KnownTriangle<Scalar>> known_;
+  bool may_be_near_ = true;  // a motion may end nearer than `Clearance::kept`, where it started so
   Scalar first_blocked_ = std::numeric_limits<Scalar>::infinity();  // time of the first blocker so far
   Frame start_;
   Frame end_;
   int hidden_ = 0;  // triangles looked at whether a known wall hides them, since the work last grew for it
   int last_ = 0;  // of the planes to pass a triangle: its neighbours come next
-  CoarsePlanes<Scalar, PlaneCache<Scalar>::capacity> coarse_;
+  FixedVector<KnownPlane, 4> known_planes_;
+  CoarsePlanes<Scalar, PlaneCache<Scalar>::capacity + 4> coarse_;
 };
 
 }  // namespace feeler

@@ -30,24 +30,23 @@ class ToolPlanes {
   int size() const noexcept { return size_; }
 
   /// Finds the limits for a motion between two frames.
-  /// @param kept     separation that every point is to keep [m]
-  /// @param noticed  and which it is to have at the end [m]
+  /// @param kept  separation that every point is to keep [m]
   template <class Moving>
-  void set_motion(const Moving& moving, const MotionFrame<Scalar>& start, const MotionFrame<Scalar>& end, Scalar kept, Scalar noticed = Scalar(0)) noexcept {
-    for (int i = 0; i < size_; ++i) planes_[index(i)].set_motion(moving, start, end, kept, noticed);
+  void set_motion(const Moving& moving, const MotionFrame<Scalar>& start, const MotionFrame<Scalar>& end, Scalar kept) noexcept {
+    for (int i = 0; i < size_; ++i) planes_[index(i)].set_motion(moving, start, end, kept);
   }
   /// Adds a plane in place of the least useful one, for the motion at hand.
   /// @param normal  unit, in the tool frame, from the object to the tool
   template <class Moving>
   void add(const Vector3<Scalar>& normal, const Moving& moving, const MotionFrame<Scalar>& start, const MotionFrame<Scalar>& end,
-           Scalar kept, Scalar noticed = Scalar(0)) noexcept {
+           Scalar kept) noexcept {
     const int place = size_ < capacity ? size_++ : capacity - 1;
     Plane& plane = planes_[index(place)];
     plane.normal = normal;
     plane.height = moving.lowest_in_tool(normal) - swept_radius(moving.tool());
     plane.hits = 2;
     plane.is_lent = true;  // a sweep has it from where this one comes from
-    plane.set_motion(moving, start, end, kept, noticed);
+    plane.set_motion(moving, start, end, kept);
   }
   /// A plane that parts the tool from a triangle over the whole motion, or −1.
   /// @param corners  relative to `MovingTool::origin()` [m]
@@ -89,13 +88,13 @@ class ToolPlanes {
     bool is_lent = false;
 
     template <class Moving>
-    void set_motion(const Moving& moving, const MotionFrame<Scalar>& start, const MotionFrame<Scalar>& end, Scalar kept, Scalar noticed) noexcept {
+    void set_motion(const Moving& moving, const MotionFrame<Scalar>& start, const MotionFrame<Scalar>& end, Scalar kept) noexcept {
       at_start.normal = start.rotation * normal;
       at_end.normal = end.rotation * normal;
-      const Scalar reach = moving.radius() + swept_radius(moving.tool()) + (std::max)(kept, noticed) + moving.length();
+      const Scalar reach = moving.radius() + swept_radius(moving.tool()) + kept + moving.length();
       const Scalar least = height - kept - moving.sagitta_of_object(at_start.normal, end.time, reach);
       at_start.limit = least + at_start.normal.dot(start.shift);
-      at_end.limit = (std::min)(least, height - noticed) + at_end.normal.dot(end.shift);
+      at_end.limit = least + at_end.normal.dot(end.shift);
     }
   };
 

@@ -31,13 +31,14 @@ void in_groups_of(std::span<const std::int32_t> entries, const Find& find, const
 
 /// Calls `visit(triangle)` for every triangle that none of the planes passes, and `may_go_on()` between, until one call is false; true when it came
 /// to the end. Both may change the planes.
+/// @param sift         `sift(node, passed)` may mark more of a node's children as passed
 /// @param planes       `CoarsePlanes`
 /// @param plane_count  `plane_count()` is how many they are
 /// @param waiting      an order of visits with the root in it: `NearestFirst` or `InBatches`
 /// @param work         grows by the work done
-template <class Scalar, class Planes, class PlaneCount, class Order, class Visit, class MayGoOn>
+template <class Scalar, class Planes, class PlaneCount, class Order, class Sift, class Visit, class MayGoOn>
 bool visit_unpassed(const Bvh<Scalar>& bvh, Planes& planes, const PlaneCount& plane_count, Order waiting, int& work,
-                    const Visit& visit, const MayGoOn& may_go_on) noexcept {
+                    const Sift& sift, const Visit& visit, const MayGoOn& may_go_on) noexcept {
   int count = 0;
   while (!waiting.empty()) {
     const std::span<const std::int32_t> next = waiting.take();
@@ -48,8 +49,11 @@ bool visit_unpassed(const Bvh<Scalar>& bvh, Planes& planes, const PlaneCount& pl
     if (!BvhNode::is_leaf(next.front())) {
       const auto node_of = [&](std::int32_t entry) { return &bvh.nodes()[std::size_t(entry)]; };
       detail::in_groups_of<Order::side_by_side>(next, node_of, [&](const auto& nodes) {
-        const auto passed = planes.passed(nodes, plane_count());
-        for (std::size_t i = 0; i < nodes.size(); ++i) waiting.push_children(*nodes[i], passed[i]);
+        auto passed = planes.passed(nodes, plane_count());
+        for (std::size_t i = 0; i < nodes.size(); ++i) {
+          sift(int(nodes[i] - bvh.nodes().data()), passed[i]);
+          waiting.push_children(*nodes[i], passed[i]);
+        }
       });
       continue;
     }

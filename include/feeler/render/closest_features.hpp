@@ -47,8 +47,7 @@ class ClosestFeaturesFollower {
     off_ = off_target(scene, pose_);
     const int idle_legs = tick.path.size();
     auto& pairs = linearisation_.pairs();
-    const Clearance<Scalar>& clearance = scene.clearance();
-    pairs.age(linearisation_.touching(scene), pairs.has_no_clearance(clearance.none()) ? Scalar(0) : clearance.noticed, goes_on_);
+    pairs.age(linearisation_.touching(scene), pairs.has_no_clearance(scene.clearance().none()) ? Scalar(0) : scene.noticed(), goes_on_);
     if (!goes_on_) limits_.reset(scene.trust_radius());
     budget_.begin_tick(scene.settings().work_budget);
     goes_on_ = !advance(scene, tick);
@@ -161,11 +160,9 @@ class ClosestFeaturesFollower {
       if (result.is_exhausted) {
         takes_first_alone_ = is_first_alone;
         // What was found to block is real, and saves work next time. Late in a tick it was work that lacked, not a shorter motion.
-        linearisation_.notice(scene, result);
         if (!linearisation_.admit(scene, result) && budget_.is_first_iteration()) limits_.shorten(linearisation_.is_empty(), length / 8);
       } else {
-        const bool is_complete = !result.is_whole() || !linearisation_.notice(scene, result);
-        const bool is_done = result.is_whole() && proposal.is_settled && !proposal.is_capped && is_complete;
+        const bool is_done = result.is_whole() && proposal.is_settled && !proposal.is_capped && knows_all_near(scene, end, tick);
         if (result.time > Scalar(0)) {
           if (result.time < Scalar(1)) {
             pose_ = turns.moved(pose_, proposal.motion * result.time);
@@ -191,6 +188,13 @@ class ClosestFeaturesFollower {
     } while (tick.iterations < maximum_iterations && budget_.allows_another(tick.work) && !(limits_.trust() < resting));
     limits_.carry_over();
     return false;
+  }
+
+  /// Whether nothing near where a motion ends is unknown; else what was not known is from now on.
+  bool knows_all_near(const Scene& scene, const Pose<Scalar>& end, Tick<MeshScalar>& tick) noexcept {
+    const NoticedTriangles noticed =
+        certificate_.notice(scene, end, tick.work, budget_.limit_of_certificate(tick.work), linearisation_.pairs(), reach_of_step(scene));
+    return !linearisation_.notice(scene, noticed) && noticed.is_all;
   }
 
   Twist<Scalar> off_target(const Scene& scene, const Pose<Scalar>& pose) const noexcept { return scene.idle_turns().motion_between(target_, pose); }

@@ -176,9 +176,9 @@ class Linearisation {
   }
 
   /// Takes what is near where a motion ended into the working set; false if all of it was there.
-  bool notice(const Scene& scene, const SweepResult<Scalar>& result) noexcept {
+  bool notice(const Scene& scene, const NoticedTriangles& all) noexcept {
     bool is_new = false;
-    for (const Noticed& noticed : result.noticed) {
+    for (const Noticed& noticed : all) {
       if (pairs_.find(noticed.piece, noticed.triangle) >= 0) continue;
       take_in(scene, noticed.piece, noticed.triangle, noticed.features);
       is_new = true;
@@ -240,6 +240,7 @@ class Linearisation {
   /// measured.
   void measure_near_pairs(const Scene& scene, Tick<MeshScalar>& tick) noexcept {
     problem_.clear();
+    walls_.clear();
     if constexpr (is_convex) {
       FixedVector<int, Pairs::capacity> quiet;
       for (int i = 0; i < pairs_.size(); ++i) {
@@ -327,6 +328,7 @@ class Linearisation {
     ContactPatch<Piece, MeshScalar> patch(scene.piece(pair.piece), scene.incidence(pair.piece), scene.object(), axes_, scene.reference(),
                                           scene.trust_radius() / 8, assumes_valleys_);
     pair.state = patch.find(pair.triangle, corners, closest, pair.keeps_ghost, patch_rows_) ? PairState::repeats : PairState::ghost;
+    pair.is_filler = patch.is_filler();
     if (is_at_start_) pair.is_ghost = pair.state == PairState::ghost;
     const auto bring = [&](int triangle, const WitnessFeatures& features) {
       if (pairs_.find(pair.piece, triangle) < 0) nearer_.push_back({pair.piece, triangle, features});
@@ -335,10 +337,13 @@ class Linearisation {
       const int nearer = patch.nearer_triangle(closest);
       if (nearer >= 0) bring(nearer, pair.features);
     }
-    const Scalar too_near = scene.clearance().noticed;
+    const Scalar too_near = scene.noticed();
     // Without clearance all walls touch, and the certificate tells which of them hold.
     if (closest.distance < too_near && !pairs_.has_no_clearance(scene.clearance().none())) {
       patch.visit_continuations(too_near, [&](int triangle) { bring(triangle, {}); });
+    }
+    if (closest.distance < touching(scene) && !pairs_.has_no_clearance(scene.clearance().none()) && is_first_on_wall(scene, pair)) {
+      patch.visit_rim([&](int triangle) { return pairs_.find(pair.piece, triangle) >= 0; }, [&](int triangle) { bring(triangle, {}); });
     }
     for (Row& row : patch_rows_) {
       row.piece = pair.piece;
@@ -351,6 +356,13 @@ class Linearisation {
     if constexpr (is_convex) {
       if (pair.state == PairState::has_rows && !pair.keeps_ghost && !closest.is_touching) covers_.add(pair.last_normal, from_tool(pair), closest.distance);
     }
+  }
+
+  /// Whether a pair is the first of its wall and piece since the rows were last cleared.
+  bool is_first_on_wall(const Scene& scene, const Pair& pair) noexcept {
+    const OnWall at{pair.piece, scene.object().walls().of_triangle(pair.triangle)};
+    if (at.wall < 0 || std::any_of(walls_.begin(), walls_.end(), [&](const OnWall& other) { return other.piece == at.piece && other.wall == at.wall; })) return false;
+    return walls_.push_back(at);
   }
 
   /// Takes in, and measures, the neighbours of ghosts that are to hold the tool in their place, and those that continue a face that touches. They
@@ -409,8 +421,13 @@ class Linearisation {
     WitnessFeatures features;  // to start its first query from
   };
 
+  struct OnWall {
+    int piece, wall;
+  };
+
   Pairs pairs_;
   Problem problem_;
+  FixedVector<OnWall, 64> walls_;      // that pieces touch where the rows are
   KeptContacts<Row, Problem::row_capacity> kept_;
   CoveringPlanes<Scalar> covers_;      // of the pairs measured where the rows are
   FixedVector<Nearer, 16> nearer_;     // that are no pairs yet

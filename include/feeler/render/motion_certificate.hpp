@@ -29,6 +29,7 @@ class MotionCertificate {
   void clear() noexcept {
     for (auto& planes : planes_) planes.clear();
     for (auto& group : groups_) group.clear();
+    walls_.clear();
   }
 
   /// Planes that parted a piece from its surroundings.
@@ -47,18 +48,14 @@ class MotionCertificate {
     if constexpr (!CompoundShape<ToolType>) {
       return certify_piece(0, scene, scene.moving(0, from, motion), work, limit, pairs, reach, until, std::numeric_limits<Scalar>::infinity());
     } else {
-      const auto is_near = find_near_pieces(scene, from, motion, work, limit);
+      is_near_ = find_near_pieces(scene, from, motion, work, limit);
       SweepResult<Scalar> result;
       result.time = until;
       Scalar first_blocked = std::numeric_limits<Scalar>::infinity();
       for (int piece = 0; piece < scene.piece_count(); ++piece) {
-        if (!is_near[std::size_t(piece)]) continue;
+        if (!is_near_[std::size_t(piece)]) continue;
         const MovingTool<Piece> moving = scene.moving(piece, from, motion);
         const auto passed = certify_piece(piece, scene, moving, work, limit, pairs, reach, until, first_blocked);
-        for (Noticed noticed : passed.noticed) {
-          noticed.piece = piece;
-          result.noticed.push_back(noticed);
-        }
         for (Blocker<Scalar> blocker : passed.blockers) {
           blocker.piece = piece;
           first_blocked = (std::min)(first_blocked, blocker.time);
@@ -78,6 +75,36 @@ class MotionCertificate {
       }
       return result;
     }
+  }
+
+  /// Triangles that are no pairs and that are nearer than the margin where the last motion certified ended; what rests at the margin is not.
+  /// Without clearance all walls touch, the certificate tells which of them hold, and nothing is noticed.
+  /// @param pairs  with the planes that parted them there
+  template <int pair_capacity>
+  NoticedTriangles notice(const Scene& scene, const Pose<Scalar>& at, int& work, int limit, const WorkingSet<Scalar, pair_capacity>& pairs,
+                          Scalar reach) noexcept {
+    NoticedTriangles result;
+    if (pairs.has_no_clearance(scene.clearance().none())) return result;
+    for (int piece = 0; piece < scene.piece_count(); ++piece) {
+      if constexpr (CompoundShape<ToolType>) {
+        if (!is_near_[std::size_t(piece)]) continue;
+      }
+      const MovingTool<Piece> standing = scene.moving(piece, at, {});
+      Clearance<Scalar> clearance = scene.clearance_for(standing);
+      clearance.kept = (std::max)(clearance.kept, scene.noticed());
+      FixedVector<KnownTriangle<Scalar>, pair_capacity> known;
+      for (int i = 0; i < pairs.size(); ++i) {
+        const auto& pair = pairs[i];
+        if (pair.piece != piece || pair.is_beyond(reach)) continue;
+        const Vector3<Scalar>& normal = pair.last_normal.isZero(Scalar(0)) ? pair.normal : pair.last_normal;
+        known.push_back({pair.triangle, {.corners = pair.corners_world.colwise() - standing.origin(), .normal = normal, .features = pair.features}});
+      }
+      const NoticedTriangles noticed = Sweep<Piece, Order>(planes_[std::size_t(piece)], clearance, &walls_, piece)
+                                           .notice(scene.object(), standing, {known.begin(), std::size_t(known.size())}, work, limit);
+      result.is_all = result.is_all && noticed.is_all;
+      for (const Noticed& triangle : noticed) result.push_back({triangle.triangle, piece, triangle.features});
+    }
+    return result;
   }
 
  private:
@@ -121,7 +148,9 @@ class MotionCertificate {
       --group.rest;
       return false;
     }
-    const bool is_clear = Sweep<Box<Scalar>>(group.planes, scene.clearance_for(moving)).parts(scene.object(), moving, work, limit);
+    Clearance<Scalar> clearance = scene.clearance_for(moving);
+    clearance.kept = (std::max)(clearance.kept, scene.noticed());
+    const bool is_clear = Sweep<Box<Scalar>>(group.planes, clearance).parts(scene.object(), moving, work, limit);
     if (!is_clear) group.rest = rest_after_failure;
     return is_clear;
   }
@@ -139,19 +168,19 @@ class MotionCertificate {
         if (pairs[i].piece == piece) clearance.kept = (std::min)(clearance.kept, clearance.required(pairs[i].slack));
       }
     }
-    // Without clearance all walls touch, and the certificate tells which of them hold.
-    if (pairs.has_no_clearance(clearance.none())) clearance.noticed = Scalar(0);
     FixedVector<KnownTriangle<Scalar>, pair_capacity> known;
     for (int i = 0; i < pairs.size(); ++i) {
       const auto& pair = pairs[i];
       if (pair.piece != piece || pair.is_beyond(reach)) continue;
       known.push_back({pair.triangle, {pair.corners_world.colwise() - moving.origin(), pair.normal, pair.features, true, pair.last_normal}});
     }
-    return Sweep<Piece, Order>(planes_[std::size_t(piece)], clearance)
+    return Sweep<Piece, Order>(planes_[std::size_t(piece)], clearance, &walls_, piece)
         .certify(scene.object(), moving, {known.begin(), std::size_t(known.size())}, work, limit, until, first_blocked);
   }
 
   std::array<PlaneCache<Scalar>, std::size_t(maximum_pieces<ToolType>)> planes_;
+  std::bitset<std::size_t(maximum_pieces<ToolType>)> is_near_;  // pieces, on the last motion
+  WallPlanes<Scalar> walls_;
   std::array<Group, std::size_t(maximum_pieces<ToolType> - 1)> groups_;
 };
 

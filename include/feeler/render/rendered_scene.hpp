@@ -64,7 +64,6 @@ class RenderedScene {
     if constexpr (!std::is_same_v<MeshScalar, Scalar>) clearance_.rounding = rounding.of_poses();
     margin_ = (std::max)(Scalar(settings.margin), 10 * clearance_.rounding);
     clearance_.kept = margin_ / 10;
-    clearance_.noticed = margin_ - margin_ / 1000;  // what rests at the margin is far enough
     clearance_.touching = touching_distance(radius_);
     clearance_.probe = trust_radius() / 4;
   }
@@ -98,6 +97,8 @@ class RenderedScene {
   }
   /// `Settings::margin`, or more where the poses that are returned have not the digits for it [m].
   Scalar margin() const noexcept { return margin_; }
+  /// What is nearer may be what holds the tool; what rests at the margin is far enough [m].
+  Scalar noticed() const noexcept { return margin_ - margin_ / 1000; }
   Scalar trust_radius() const noexcept { return Scalar(settings_.trust_radius); }
 
   /// Pose of the reference point, from the pose of the tool frame.
