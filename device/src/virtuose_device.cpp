@@ -2,8 +2,10 @@
 #include "feeler/device/virtuose_device.hpp"
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <memory>
+#include <thread>
 #include <utility>
 
 #include "direct_driver.hpp"
@@ -16,7 +18,11 @@ namespace {
 using Context = void*;
 constexpr int impedance = 3;    // a command type: force in, pose out
 constexpr int no_indexing = 2;  // an indexing mode
-constexpr int buttons = 2;
+constexpr int buttons = 6;
+
+// Bits of virtGetAlarm.
+constexpr unsigned int overheated = 0x4000;
+constexpr unsigned int saturated = 0x8000;
 
 /// The functions, fetched by name. Those that return an int return 0 when all is well.
 struct Library {
@@ -37,6 +43,9 @@ struct Library {
   int (*get_power_on)(Context, int*) = nullptr;
   int (*get_dead_man)(Context, int*) = nullptr;
   int (*get_emergency_stop)(Context, int*) = nullptr;
+  int (*get_alarm)(Context, unsigned int*) = nullptr;
+  int (*get_failure)(Context, unsigned int*) = nullptr;
+  int (*get_time_last_update)(Context, unsigned int*) = nullptr;
   int (*get_position)(Context, float*) = nullptr;
   int (*get_button)(Context, int, int*) = nullptr;
   int (*set_force)(Context, float*) = nullptr;
@@ -65,6 +74,9 @@ struct Library {
              file.find("virtGetPowerOn", get_power_on),
              file.find("virtGetDeadMan", get_dead_man),
              file.find("virtGetEmergencyStop", get_emergency_stop),
+             file.find("virtGetAlarm", get_alarm),
+             file.find("virtGetFailure", get_failure),
+             file.find("virtGetTimeLastUpdate", get_time_last_update),
              file.find("virtGetPosition", get_position),
              file.find("virtGetButton", get_button),
              file.find("virtSetForce", set_force),
@@ -123,11 +135,26 @@ class VirtuoseDriver final : public DirectDriver {
       return "Virtuose: the controller refuses " + std::string(refused) + " (" + error() +
              "): release its emergency stop and start it again.";
     }
-    if (take_pose(state) != nullptr) {
-      return "Virtuose: the controller gives no pose (" + error() +
-             "): calibrate the device as its manual says.";
-    }
+    measure_ticks();
+    if (const char* const why = take_pose(state))
+      return "Virtuose: the controller gives no pose (" + error() + "): " + std::string(why);
     return {};
+  }
+
+  /// How fast the ticks run in which the controller tells the age of its poses, which its documentation does not say: as fast as an age is ever
+  /// seen to grow, because one that was renewed meanwhile grows less.
+  void measure_ticks() {
+    ticks_per_second_ = 0;
+    for (int i = 0; i < 50; ++i) {
+      unsigned int before = 0;
+      unsigned int after = 0;
+      const auto start = std::chrono::steady_clock::now();
+      if (library_.get_time_last_update(context_, &before) != 0) return;
+      std::this_thread::sleep_for(std::chrono::microseconds(100));
+      if (library_.get_time_last_update(context_, &after) != 0) return;
+      const std::chrono::duration<double> between = std::chrono::steady_clock::now() - start;
+      if (after > before) ticks_per_second_ = std::max(ticks_per_second_, double(after - before) / between.count());
+    }
   }
 
   void switch_off() noexcept override {
@@ -139,7 +166,12 @@ class VirtuoseDriver final : public DirectDriver {
   const char* take_pose(DeviceState& state) noexcept override {
     constexpr const char* is_silent = "The controller stopped answering: check its network cable.";
     float pose[7] = {0, 0, 0, 0, 0, 0, 1};
-    if (library_.get_position(context_, pose) != 0 || !look_for_hindrances()) return is_silent;
+    unsigned int age = 0;
+    unsigned int failure = 0;
+    if (library_.get_time_last_update(context_, &age) != 0 || library_.get_position(context_, pose) != 0 ||
+        library_.get_failure(context_, &failure) != 0 || !look_for_hindrances())
+      return is_silent;
+    if (failure != 0) return "A motor of the device or its encoder has failed: switch the device off and have it repaired.";
     const double q[4] = {double(pose[6]), double(pose[3]), double(pose[4]), double(pose[5])};
     const double length = std::hypot(std::hypot(q[0], q[1]), std::hypot(q[2], q[3]));
     const bool is_position = std::isfinite(pose[0]) && std::isfinite(pose[1]) && std::isfinite(pose[2]);
@@ -157,22 +189,25 @@ class VirtuoseDriver final : public DirectDriver {
       if (library_.get_button(context_, button, &is_pressed) == 0 && is_pressed != 0)
         state.buttons |= 1u << button;
     }
-    state.time = time();
+    state.motor_temperature = (alarm_ & overheated) != 0 ? 1 : 0;
+    const bool is_old = ticks_per_second_ > 0 && age > 2 * settings_.period * ticks_per_second_;
+    if (!is_old) state.time = time();
     return nullptr;
   }
 
   /// Whether the controller says what keeps the device from pushing.
   bool look_for_hindrances() noexcept {
-    int is_stopped = 0;
+    int is_chain_closed = 0;  // of the emergency stop: 1 lets the device run
     int is_powered = 0;
     int is_held = 0;
-    if (library_.get_emergency_stop(context_, &is_stopped) != 0 ||
-        library_.get_power_on(context_, &is_powered) != 0 || library_.get_dead_man(context_, &is_held) != 0)
+    if (library_.get_emergency_stop(context_, &is_chain_closed) != 0 ||
+        library_.get_power_on(context_, &is_powered) != 0 || library_.get_dead_man(context_, &is_held) != 0 ||
+        library_.get_alarm(context_, &alarm_) != 0)
       return false;
-    hindrance_ = is_stopped != 0   ? "The emergency stop of the device is pressed: release it."
-                 : is_powered == 0 ? "The power of the motors is off: switch it on at the controller."
-                 : is_held == 0    ? "The dead man's switch is released: hold the handle."
-                                   : nullptr;
+    hindrance_ = is_chain_closed == 0 ? "The emergency stop of the device is pressed, or not plugged in: release it."
+                 : is_powered == 0    ? "The power of the motors is off: switch it on at the controller."
+                 : is_held == 0       ? "The dead man's switch is released: hold the handle."
+                                      : nullptr;
     return true;
   }
   const char* hindrance() const noexcept override { return hindrance_; }
@@ -185,14 +220,17 @@ class VirtuoseDriver final : public DirectDriver {
     maker_frame::to_maker(wrench.torque, torque);
     std::copy(force, force + 3, both);
     std::copy(torque, torque + 3, both + 3);
-    if (library_.set_force(context_, both) == 0) return {true};
-    return {false, "The controller does not take the force: check its network cable and its emergency stop."};
+    if (library_.set_force(context_, both) != 0)
+      return {false, "The controller does not take the force: check its network cable and its emergency stop."};
+    return {true, (alarm_ & saturated) != 0 ? "The motors give all they can and less than was asked for: lower the stiffness." : nullptr};
   }
 
   VirtuoseSettings settings_;
   Library library_;
   Context context_ = nullptr;
   const char* hindrance_ = nullptr;  // its emergency stop, its power or its dead man's switch
+  unsigned int alarm_ = 0;           // since the last pose
+  double ticks_per_second_ = 0;      // of the age of a pose; 0 where it tells none
 };
 
 }  // namespace

@@ -313,6 +313,26 @@ BOOST_AUTO_TEST_CASE(what_hinders_a_virtuose_ends_in_silence) {
   }
 }
 
+BOOST_AUTO_TEST_CASE(an_overheated_virtuose_ends_in_silence) {
+  check_silenced(run(&feeler_test::virtuose,
+                     [](Maker& maker, ServoLoop&, World&) {
+                       maker.virtuose->alarm = 0x4000;
+                       return contact;
+                     }),
+                 ForceFault::hot_motors);
+}
+
+BOOST_AUTO_TEST_CASE(a_virtuose_whose_state_is_not_renewed_ends_in_silence) {
+  const auto outcome = run(&feeler_test::virtuose, [](Maker& maker, ServoLoop&, World&) {
+    maker.virtuose->seconds_late = 0.1;
+    return contact;
+  });
+  // From the moment at which the pose is too old: 3 ms.
+  BOOST_TEST(outcome.half_milliseconds_to_silence <= 6 + 4);
+  BOOST_TEST(outcome.stayed_silent);
+  BOOST_TEST((outcome.report.force.first_fault == ForceFault::stale_pose));
+}
+
 BOOST_AUTO_TEST_CASE(a_virtuose_with_a_broken_pose_ends_in_silence_and_a_sentence) {
   const auto outcome = run(&feeler_test::virtuose, [](Maker& maker, ServoLoop&, World&) {
     maker.virtuose->pose[3] = 3;

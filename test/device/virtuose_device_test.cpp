@@ -48,7 +48,7 @@ BOOST_AUTO_TEST_CASE(right_up_and_to_the_user_are_x_y_and_z_and_the_quaternion_i
   // To the user, right, up; a quarter turn about the maker's x, which is our z; x, y, z, w.
   const float pose[7] = {0.125f, 0.25f, 0.5f, half, 0, 0, half};
   std::copy(pose, pose + 7, controller.pose);
-  controller.buttons[1] = 1;
+  controller.buttons[1] = controller.buttons[5] = 1;
   VirtuoseDevice device(settings());
   const auto opened = device.open();
   BOOST_REQUIRE_MESSAGE(bool(opened), opened.problem);
@@ -62,7 +62,7 @@ BOOST_AUTO_TEST_CASE(right_up_and_to_the_user_are_x_y_and_z_and_the_quaternion_i
   BOOST_TEST(state.pose.orientation[3] == std::sqrt(0.5), boost::test_tools::tolerance(1e-15));
   BOOST_TEST(state.pose.orientation[1] == 0);
   BOOST_TEST(state.pose.orientation[2] == 0);
-  BOOST_TEST(state.buttons == 2u);
+  BOOST_TEST(state.buttons == 34u);
 
   BOOST_TEST((device.write(some_push) == DeviceStatus::ok));
   const float expected[6] = {3, 1, 2, 0.125f, 0.25f, 0.5f};
@@ -104,8 +104,9 @@ BOOST_AUTO_TEST_CASE(a_device_that_cannot_start_is_refused_with_a_sentence_and_l
       {[](auto& controller) { controller.refuses_to_open = true; },
        "no controller answers at localhost#5000 (communication failure)"},
       {[](auto& controller) { controller.refuses_impedance = true; },
-       "refuses impedance mode (incompatible mode)"},
+       "refuses impedance mode (wrong mode)"},
       {[](auto& controller) { std::fill(controller.pose, controller.pose + 7, 0.0f); }, "gives no pose"},
+      {[](auto& controller) { controller.failure = 4; }, "have it repaired"},
   };
   for (const Fault& fault : faults) {
     auto& controller = fresh();
@@ -149,6 +150,64 @@ BOOST_AUTO_TEST_CASE(while_the_device_must_not_push_it_pushes_nothing_and_says_w
     device.write(some_push);
     BOOST_TEST(!is_silent(controller));
   }
+}
+
+BOOST_AUTO_TEST_CASE(an_overheated_motor_is_told_as_its_highest_temperature) {
+  auto& controller = fresh();
+  VirtuoseDevice device(settings());
+  BOOST_REQUIRE(bool(device.open()));
+  DeviceState state;
+  for (const bool is_hot : {false, true, false}) {
+    controller.alarm = is_hot ? 0x4000 : 0;
+    BOOST_TEST((device.read(state) == DeviceStatus::ok));
+    BOOST_TEST(state.motor_temperature == (is_hot ? 1 : 0));
+  }
+}
+
+BOOST_AUTO_TEST_CASE(saturated_motors_are_told_and_are_no_fault) {
+  auto& controller = fresh();
+  VirtuoseDevice device(settings());
+  BOOST_REQUIRE(bool(device.open()));
+  DeviceState state;
+  controller.alarm = 0x8000;
+  BOOST_TEST((device.read(state) == DeviceStatus::ok));
+  BOOST_TEST((device.write(some_push) == DeviceStatus::ok));
+  BOOST_TEST(says(device.complaint(), "less than was asked for"));
+  BOOST_TEST(!is_silent(controller));
+}
+
+BOOST_AUTO_TEST_CASE(a_failed_motor_is_a_fault_for_good) {
+  auto& controller = fresh();
+  VirtuoseDevice device(settings());
+  BOOST_REQUIRE(bool(device.open()));
+  device.write(some_push);
+  controller.failure = 1;
+  DeviceState state;
+  BOOST_TEST((device.read(state) == DeviceStatus::fault));
+  BOOST_TEST(says(device.complaint(), "has failed"));
+  device.write(some_push);
+  BOOST_TEST(is_silent(controller));
+}
+
+BOOST_AUTO_TEST_CASE(a_pose_that_the_controller_does_not_renew_keeps_its_time) {
+  auto& controller = fresh();
+  VirtuoseDevice device(settings());
+  BOOST_REQUIRE(bool(device.open()));
+  DeviceState state;
+  double last = -1;
+  for (int i = 0; i < 100; ++i) {
+    BOOST_TEST((device.read(state) == DeviceStatus::ok));
+    BOOST_TEST(state.time > last);
+    last = state.time;
+  }
+  controller.seconds_late = 0.003;
+  for (int i = 0; i < 100; ++i) {
+    BOOST_TEST((device.read(state) == DeviceStatus::ok));
+    BOOST_TEST(state.time == last);
+  }
+  controller.seconds_late = 0;
+  device.read(state);
+  BOOST_TEST(state.time > last);
 }
 
 BOOST_AUTO_TEST_CASE(a_lost_controller_is_a_fault_for_good_and_is_told_to_let_go_as_soon_as_it_listens) {

@@ -2,6 +2,7 @@
 #include "virtuose_stand_in.hpp"
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <string>
 
@@ -47,10 +48,10 @@ int virtClose(void*) {
 }
 
 int virtGetErrorCode(void*) {
-  return device.refuses_to_open || device.is_unplugged ? 5 : 9;
+  return device.refuses_to_open || device.is_unplugged ? 2 : 17;
 }
 const char* virtGetErrorMessage(int code) {
-  return code == 5 ? "communication failure" : "incompatible mode";
+  return code == 2 ? "communication failure" : "wrong mode";
 }
 
 int virtSetIndexingMode(void*, int mode) {
@@ -101,8 +102,26 @@ int virtGetDeadMan(void*, int* is_held) {
   return answer();
 }
 
-int virtGetEmergencyStop(void*, int* is_stopped) {
-  *is_stopped = device.is_emergency_stopped ? 1 : 0;
+int virtGetEmergencyStop(void*, int* is_chain_closed) {
+  *is_chain_closed = device.is_emergency_stopped ? 0 : 1;
+  return answer();
+}
+
+int virtGetAlarm(void*, unsigned int* alarm) {
+  *alarm = device.alarm;
+  return answer();
+}
+
+int virtGetFailure(void*, unsigned int* failure) {
+  *failure = device.failure;
+  return answer();
+}
+
+// In ticks of a tenth of a microsecond; renewed every millisecond.
+int virtGetTimeLastUpdate(void*, unsigned int* ticks) {
+  const auto now = std::chrono::steady_clock::now().time_since_epoch();
+  *ticks = static_cast<unsigned int>(1e7 * device.seconds_late) +
+           static_cast<unsigned int>(std::chrono::nanoseconds(now).count() % 1'000'000 / 100);
   return answer();
 }
 
@@ -112,6 +131,7 @@ int virtGetPosition(void*, float* pose) {
 }
 
 int virtGetButton(void*, int button, int* state) {
+  if (button < 0 || button >= 6) return -1;
   *state = device.buttons[button];
   return answer();
 }

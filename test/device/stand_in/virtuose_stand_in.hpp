@@ -10,7 +10,7 @@ namespace feeler_test {
 struct VirtuoseStandIn {
   // The hand, in the maker's frame: x to the user, y right, z up.
   float pose[7] = {0, 0, 0, 0, 0, 0, 1};  // x, y, z [m], then the quaternion x, y, z, w
-  int buttons[2] = {0, 0};
+  int buttons[6] = {0, 0, 0, 0, 0, 0};
 
   // Faults.
   bool refuses_to_open = false;
@@ -18,6 +18,9 @@ struct VirtuoseStandIn {
   bool is_unplugged = false;
   bool is_emergency_stopped = false;
   bool is_held = true;
+  unsigned int alarm = 0;    // bits: 0x4000 overheat, 0x8000 saturation
+  unsigned int failure = 0;  // a bit a motor
+  double seconds_late = 0;   // of its state: how long ago it should have been renewed
 
   // The motors.
   float wrench[6] = {0, 0, 0, 0, 0, 0};  // [N], [N·m]

@@ -22,8 +22,9 @@ struct VirtuoseSettings {
 /// The library speaks single precision, in the frame x to the user, y right, z up; both end here. Its own
 /// indexing is off: clutching belongs to the workspace map. While its emergency stop is pressed, its power
 /// off or its dead man's switch released, it pushes nothing and every `read` is a warning, so that the force
-/// comes back by the ramp and not at once. The library does not say which model it is: the specification is
-/// that of a Virtuose 6D, cut to what SOFA lets it push.
+/// comes back by the ramp and not at once. An overheated motor is told as its highest temperature, and a pose
+/// that the controller has not renewed for two periods keeps its time. The library does not say which model
+/// it is: the specification is that of a Virtuose 6D, cut to what SOFA lets it push.
 class VirtuoseDevice final : public DrivenDevice {
  public:
   /// @param clock  stamps the poses, outlives the device; none is CLOCK_MONOTONIC
