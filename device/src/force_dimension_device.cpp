@@ -20,23 +20,58 @@ namespace {
 constexpr int time_guard = 1;
 constexpr int motors_saturated = 2;
 
+/// Places in the answer of dhdGetStatus.
+enum Status : int { has_power = 0, waits_for_calibration = 3, pushes = 5, brakes = 6, has_error = 9, force_off_cause = 14 };
+constexpr int most_status = 32;  // 16 or 17, by the version
+
+/// What switched the force off, as the status tells it.
+const char* sentence_of_cause(int cause) noexcept {
+  switch (cause) {
+    case 1:
+      return "The force was switched off by the button of the device: press it again.";
+    case 2:
+      return "The handle moved faster than the device allows, so its force is off: hold it firmly and press its force button.";
+    case 3:
+      return "The device was told no force for too long, so its force is off: press its force button.";
+    case 5:
+      return "The USB cable was off, so the force of the device is off: press its force button.";
+    case 6:
+      return "The dead man's switch of the device is released: hold the handle.";
+    default:
+      return "The force of the device is off: press its force button.";
+  }
+}
+
 /// The functions, fetched by name. The last argument is the device; default arguments exist in C++ headers
 /// only.
 struct Library {
   SharedLibrary file;
   int (*open)() = nullptr;
+  int (*open_index)(char) = nullptr;
+  int (*open_serial_number)(int) = nullptr;
   int (*close)(char) = nullptr;
   int (*device_count)() = nullptr;
   int (*system_type)(char) = nullptr;
+  int (*get_status)(int*, char) = nullptr;
   bool (*has_wrist)(char) = nullptr;
   bool (*has_active_wrist)(char) = nullptr;
   int (*get_pose)(double*, double*, double*, double (*)[3], char) = nullptr;
   unsigned int (*button_mask)(char) = nullptr;
-  int (*set_wrench)(double, double, double, double, double, double, char) = nullptr;
+  int (*set_wrench)(double, double, double, double, double, double, double, char) = nullptr;
   int (*set_max_force)(double, char) = nullptr;
   int (*set_gravity_compensation)(int, char) = nullptr;
   int (*enable_force)(unsigned char, char) = nullptr;
   const char* (*last_error)() = nullptr;
+
+  /// What libdrd has over libdhd.
+  struct Robotics {
+    int (*open)(char) = nullptr;
+    int (*close)(char) = nullptr;
+    bool (*is_initialised)(char) = nullptr;
+    int (*initialise)(char) = nullptr;
+    int (*stop)(bool, char) = nullptr;
+  } robotics;
+  bool has_robotics = false;
 
   /// @return a sentence that says what is missing and how to get it; empty once all is there
   std::string load(const std::vector<std::string>& candidates) {
@@ -50,14 +85,17 @@ struct Library {
     }
     for (const char* const missing : {
              file.find("dhdOpen", open),
+             file.find("dhdOpenID", open_index),
+             file.find("dhdOpenSerial", open_serial_number),
              file.find("dhdClose", close),
              file.find("dhdGetDeviceCount", device_count),
              file.find("dhdGetSystemType", system_type),
+             file.find("dhdGetStatus", get_status),
              file.find("dhdHasWrist", has_wrist),
              file.find("dhdHasActiveWrist", has_active_wrist),
              file.find("dhdGetPositionAndOrientationFrame", get_pose),
              file.find("dhdGetButtonMask", button_mask),
-             file.find("dhdSetForceAndTorque", set_wrench),
+             file.find("dhdSetForceAndTorqueAndGripperForce", set_wrench),
              file.find("dhdSetMaxForce", set_max_force),
              file.find("dhdSetGravityCompensation", set_gravity_compensation),
              file.find("dhdEnableForce", enable_force),
@@ -68,6 +106,11 @@ struct Library {
                ": install SDK 3.10 or later, or point to its library.";
       }
     }
+    has_robotics = file.find("drdOpenID", robotics.open) == nullptr &&
+                   file.find("drdClose", robotics.close) == nullptr &&
+                   file.find("drdIsInitialized", robotics.is_initialised) == nullptr &&
+                   file.find("drdAutoInit", robotics.initialise) == nullptr &&
+                   file.find("drdStop", robotics.stop) == nullptr;
     return {};
   }
 };
@@ -124,14 +167,23 @@ class ForceDimensionDriver final : public DirectDriver {
  private:
   std::string connect() override {
     if (std::string problem = library_.load(settings_.libraries); !problem.empty()) return problem;
-    const int opened = library_.open();
+    const int opened = open_chosen();
     if (opened < 0) return refusal();
     device_ = static_cast<char>(opened);
+    is_robot_ = library_.has_robotics && library_.robotics.open(device_) >= 0;
     DeviceSpecification device = preset_of(library_.system_type(device_));
     if (!library_.has_wrist(device_)) device.is_sensed = {true, true, true, false, false, false};
     if (!library_.has_active_wrist(device_)) device.lose_torque();
     specify(std::move(device));
     return {};
+  }
+
+  /// @return its ID, or below 0
+  int open_chosen() {
+    if (settings_.serial_number) return library_.open_serial_number(*settings_.serial_number);
+    if (!settings_.index) return library_.open();
+    const int index = *settings_.index;
+    return index >= 0 && index <= 127 ? library_.open_index(static_cast<char>(index)) : -1;  // the library takes -1 for any
   }
 
   std::string refusal() const {
@@ -141,15 +193,42 @@ class ForceDimensionDriver final : public DirectDriver {
              "check its power and USB cable, and that a udev rule lets you write to it: "
              "SUBSYSTEM==\"usb\", ATTRS{idVendor}==\"1451\", MODE=\"0666\" in /etc/udev/rules.d/.";
     }
-    return sentence + "calibrate it as its manual says, and close the other program that uses it.";
+    if (settings_.serial_number)
+      sentence += "look if it has the serial number " + std::to_string(*settings_.serial_number) + ", and ";
+    else if (settings_.index)
+      sentence += "look if there is one with the index " + std::to_string(*settings_.index) + ", counted from 0, and ";
+    return sentence + "close the other program that uses it.";
   }
   std::string error() const {
     const char* const text = library_.last_error();
     return text != nullptr ? text : "no error given";
   }
 
+  /// Calibration, where it is missing and the caller asks for it. @return what keeps the device from being used
+  std::string calibrate() {
+    int status[most_status] = {};
+    if (library_.get_status(status, device_) < 0)
+      return "Force Dimension: the device does not tell its status (" + error() + "): check its USB cable.";
+    if (status[has_power] == 0) return "Force Dimension: the device has no power: switch it on, and check its power supply.";
+    if (status[has_error] != 0) return "Force Dimension: the device reports an error: switch it off and on.";
+    if (is_calibrated(status)) return {};
+    if (!settings_.initialises) {
+      return "Force Dimension: the device is not calibrated: put its handle where its manual shows and follow it (a Falcon: pull it out and push it in), or "
+             "set ForceDimensionSettings::initialises and take your hands off, because it moves.";
+    }
+    if (!is_robot_) return "Force Dimension: the device cannot initialise itself with " + library_.file.path() + ": use libdrd, or calibrate it as its manual says.";
+    if (library_.robotics.initialise(device_) < 0 || library_.robotics.stop(true, device_) < 0 || library_.get_status(status, device_) < 0 ||
+        !is_calibrated(status))
+      return "Force Dimension: the device cannot initialise itself (" + error() + "): free its handle, or calibrate it as its manual says.";
+    return {};
+  }
+  bool is_calibrated(const int (&status)[most_status]) const {
+    return status[waits_for_calibration] == 0 && (!is_robot_ || library_.robotics.is_initialised(device_));
+  }
+
   /// Limits, gravity compensation, force on at zero, after the first pose.
   std::string switch_on(DeviceState& state) override {
+    if (std::string problem = calibrate(); !problem.empty()) return problem;
     for (int wait = 0;; ++wait) {
       if (const char* const why = take_pose(state))
         return "Force Dimension: the device gives no pose (" + std::string(why) + "): calibrate it as its manual says.";
@@ -161,21 +240,24 @@ class ForceDimensionDriver final : public DirectDriver {
         library_.set_gravity_compensation(1, device_) < 0 || !push({}).is_taken ||
         library_.enable_force(1, device_) < 0) {
       return "Force Dimension: the device refuses to push (" + error() +
-             "): press its force button, and calibrate it as its manual says.";
+             "): press its force button.";
     }
+    // It takes its time to switch the force on. What keeps it off is told by every read.
+    for (int wait = 0; wait < 100 && look_for_hindrances() && hindrance_ != nullptr; ++wait)
+      std::this_thread::sleep_for(std::chrono::milliseconds(1));
     return {};
   }
 
   void switch_off() noexcept override {
     library_.enable_force(0, device_);
-    library_.close(device_);
+    (is_robot_ ? library_.robotics.close : library_.close)(device_);
   }
 
   const char* take_pose(DeviceState& state) noexcept override {
     double position[3] = {0, 0, 0};
     double frame[3][3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
     const int answer = library_.get_pose(&position[0], &position[1], &position[2], frame, device_);
-    if (answer < 0) return reason();
+    if (answer < 0 || !look_for_hindrances()) return reason();
     is_renewed_ = answer != time_guard;
     if (!is_renewed_) return nullptr;
     double ours[3][3];
@@ -190,13 +272,27 @@ class ForceDimensionDriver final : public DirectDriver {
     return nullptr;
   }
 
+  /// Whether the device says what keeps it from pushing.
+  bool look_for_hindrances() noexcept {
+    int status[most_status] = {};
+    if (library_.get_status(status, device_) < 0) return false;
+    hindrance_ = status[has_power] == 0               ? "The device has no power: check its power supply."
+                 : status[has_error] != 0             ? "The device reports an error: switch it off and on."
+                 : status[waits_for_calibration] != 0 ? "The device lost its calibration: calibrate it as its manual says, then open it again."
+                 : status[pushes] == 0 || status[brakes] != 0 ? sentence_of_cause(status[force_off_cause])
+                                                              : nullptr;
+    return true;
+  }
+  const char* hindrance() const noexcept override { return hindrance_; }
+
+  /// A driven gripper is left free: it has a force of its own, which only this call sets.
   Answer push(const DeviceWrench& wrench) noexcept override {
     double f[3];
     double t[3];
     maker_frame::to_maker(wrench.force, f);
     maker_frame::to_maker(wrench.torque, t);
     if (!specification().pushes_torque()) std::fill(t, t + 3, 0.0);
-    const int answer = library_.set_wrench(f[0], f[1], f[2], t[0], t[1], t[2], device_);
+    const int answer = library_.set_wrench(f[0], f[1], f[2], t[0], t[1], t[2], 0, device_);
     if (answer < 0) return {false, reason()};
     if (answer == motors_saturated)
       return {true, "The motors give all they can and less than was asked for: lower the stiffness."};
@@ -212,7 +308,9 @@ class ForceDimensionDriver final : public DirectDriver {
   ForceDimensionSettings settings_;
   Library library_;
   char device_ = -1;
-  bool is_renewed_ = false;  // the pose, since it was taken before
+  bool is_robot_ = false;            // libdrd knows it, and can calibrate it
+  bool is_renewed_ = false;          // the pose, since it was taken before
+  const char* hindrance_ = nullptr;  // its power, its calibration, its force button and the like
 };
 
 }  // namespace

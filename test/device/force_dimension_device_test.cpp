@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <string>
 
 #include "feeler/device/force_dimension_device.hpp"
@@ -143,7 +144,14 @@ BOOST_AUTO_TEST_CASE(a_device_that_cannot_start_is_refused_with_a_sentence_and_l
   };
   const Fault faults[] = {
       {[](auto& dhd) { dhd.device_count = 0; }, "udev rule"},
-      {[](auto& dhd) { dhd.refuses_to_open = true; }, "device not ready): calibrate it"},
+      {[](auto& dhd) { dhd.refuses_to_open = true; }, "device not ready): close the other program"},
+      {[](auto& dhd) { dhd.needs_calibration = true; }, "not calibrated: put its handle"},
+      {[](auto& dhd) { dhd.needs_calibration = dhd.is_unknown_to_drd = true; },
+       "not calibrated: put its handle"},
+      {[](auto& dhd) { dhd.needs_calibration = dhd.only_drd_knows = true; },
+       "not calibrated: put its handle"},
+      {[](auto& dhd) { dhd.has_power = false; }, "no power: switch it on"},
+      {[](auto& dhd) { dhd.has_error = true; }, "reports an error: switch it off and on"},
       {[](auto& dhd) { dhd.refuses_force = true; }, "refuses to push"},
       {[](auto& dhd) { dhd.has_nothing_new = true; }, "no pose came within a second"},
       {[](auto& dhd) { dhd.frame[0][0] = 0; }, "a pose that is none"},
@@ -159,6 +167,110 @@ BOOST_AUTO_TEST_CASE(a_device_that_cannot_start_is_refused_with_a_sentence_and_l
     BOOST_TEST(!dhd.is_open);
     BOOST_TEST(!dhd.is_force_on);
     BOOST_TEST(is_silent(dhd));
+    BOOST_TEST(dhd.broken_rules == 0);
+  }
+}
+
+BOOST_AUTO_TEST_CASE(a_device_that_is_not_calibrated_initialises_itself_only_where_the_caller_asks_for_it) {
+  auto& dhd = fresh();
+  dhd.needs_calibration = true;
+  auto moving = settings();
+  moving.initialises = true;
+  {
+    ForceDimensionDevice device(moving);
+    const auto opened = device.open();
+    BOOST_TEST(bool(opened), opened.problem);
+    BOOST_TEST(!dhd.needs_calibration);
+    BOOST_TEST(!dhd.is_regulated);
+    BOOST_TEST(dhd.is_force_on);
+    BOOST_TEST(dhd.broken_rules == 0);
+  }
+  dhd.reset();
+  dhd.needs_calibration = dhd.fails_to_initialise = true;
+  BOOST_TEST(
+      says(ForceDimensionDevice(moving).open().problem, "cannot initialise itself (device not ready)"));
+  dhd.reset();
+  dhd.needs_calibration = dhd.is_unknown_to_drd = true;
+  BOOST_TEST(says(ForceDimensionDevice(moving).open().problem, "use libdrd"));
+  BOOST_TEST(!dhd.is_force_on);
+  BOOST_TEST(dhd.broken_rules == 0);
+}
+
+BOOST_AUTO_TEST_CASE(one_of_several_devices_is_chosen_by_its_serial_number_or_its_index) {
+  struct Choice {
+    std::optional<int> serial_number;
+    std::optional<int> index;
+    int id;
+  };
+  for (const Choice& choice :
+       {Choice{{}, {}, 3}, Choice{1004, {}, 4}, Choice{{}, 4, 4}, Choice{1004, 3, 4}}) {
+    auto& dhd = fresh();
+    dhd.device_count = 2;
+    auto chosen = settings();
+    chosen.serial_number = choice.serial_number;
+    chosen.index = choice.index;
+    ForceDimensionDevice device(chosen);
+    const auto opened = device.open();
+    BOOST_REQUIRE_MESSAGE(bool(opened), opened.problem);
+    device.write(some_push);
+    BOOST_TEST(dhd.id == choice.id);
+    BOOST_TEST(dhd.wrong_ids == 0);
+  }
+  fresh();
+  auto absent = settings();
+  absent.serial_number = 1234;
+  BOOST_TEST(says(ForceDimensionDevice(absent).open().problem, "the serial number 1234"));
+  absent = settings();
+  for (const int index : {7, -1, 256 + 3}) {
+    absent.index = index;
+    BOOST_TEST(
+        says(ForceDimensionDevice(absent).open().problem, ("the index " + std::to_string(index)).c_str()));
+  }
+}
+
+BOOST_AUTO_TEST_CASE(a_driven_gripper_is_left_free) {
+  auto& dhd = fresh();
+  ForceDimensionDevice device(settings());
+  BOOST_REQUIRE(bool(device.open()));
+  dhd.gripper_force = 1;
+  device.write(some_push);
+  BOOST_TEST(dhd.gripper_force == 0);
+}
+
+BOOST_AUTO_TEST_CASE(while_the_device_must_not_push_it_pushes_nothing_and_says_why) {
+  struct Hindrance {
+    void (*cause)(feeler_test::ForceDimensionStandIn&);
+    const char* words;
+  };
+  const Hindrance hindrances[] = {
+      {[](auto& dhd) { dhd.force_off_cause = 1; }, "button of the device: press it again"},
+      {[](auto& dhd) { dhd.force_off_cause = 2; }, "faster than the device allows"},
+      {[](auto& dhd) { dhd.force_off_cause = 3; }, "told no force for too long"},
+      {[](auto& dhd) { dhd.force_off_cause = 4; }, "is off: press its force button"},
+      {[](auto& dhd) { dhd.force_off_cause = 5; }, "USB cable"},
+      {[](auto& dhd) { dhd.force_off_cause = 6; }, "dead man's switch"},
+      {[](auto& dhd) { dhd.is_braking = true; }, "is off: press its force button"},
+      {[](auto& dhd) { dhd.has_power = false; }, "no power"},
+      {[](auto& dhd) { dhd.has_error = true; }, "reports an error"},
+      {[](auto& dhd) { dhd.needs_calibration = true; }, "lost its calibration"},
+  };
+  for (const Hindrance& hindrance : hindrances) {
+    auto& dhd = fresh();
+    ForceDimensionDevice device(settings());
+    BOOST_REQUIRE(bool(device.open()));
+    device.write(some_push);
+    hindrance.cause(dhd);
+    DeviceState state;
+    BOOST_TEST((device.read(state) == DeviceStatus::warning));
+    BOOST_TEST(says(device.complaint(), hindrance.words), device.complaint());
+    device.write(some_push);
+    BOOST_TEST(is_silent(dhd));
+    dhd.force_off_cause = 0;
+    dhd.is_braking = dhd.has_error = dhd.needs_calibration = false;
+    dhd.has_power = true;
+    BOOST_TEST((device.read(state) == DeviceStatus::ok));
+    device.write(some_push);
+    BOOST_TEST(!is_silent(dhd));
   }
 }
 
@@ -206,6 +318,7 @@ BOOST_AUTO_TEST_CASE(closing_lets_go_and_opening_again_starts_afresh) {
     BOOST_TEST(!dhd.is_force_on);
     BOOST_TEST(!dhd.is_open);
     BOOST_TEST(dhd.wrong_ids == 0);
+    BOOST_TEST(dhd.broken_rules == 0);
   }
 }
 

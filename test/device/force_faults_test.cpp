@@ -298,6 +298,20 @@ BOOST_AUTO_TEST_CASE(a_force_dimension_device_that_only_answers_with_its_time_gu
   BOOST_TEST(outcome.report.ticks == last_tick);
 }
 
+BOOST_AUTO_TEST_CASE(what_hinders_a_force_dimension_device_ends_in_silence) {
+  const std::vector<void (*)(feeler_test::ForceDimensionStandIn&)> hindrances = {
+      [](auto& dhd) { dhd.force_off_cause = 1; }, [](auto& dhd) { dhd.has_power = false; },
+      [](auto& dhd) { dhd.has_error = true; }};
+  for (const auto hinder : hindrances) {
+    const auto outcome = run(&feeler_test::force_dimension, [=](Maker& maker, ServoLoop&, World&) {
+      hinder(*maker.dhd);
+      return contact;
+    });
+    check_silenced(outcome, ForceFault::device_warning);
+    BOOST_TEST(outcome.report.ticks == last_tick);
+  }
+}
+
 BOOST_AUTO_TEST_CASE(what_hinders_a_virtuose_ends_in_silence) {
   const std::vector<void (*)(feeler_test::VirtuoseStandIn&)> hindrances = {
       [](auto& controller) { controller.is_emergency_stopped = true; },

@@ -7,7 +7,7 @@
 
 namespace {
 
-constexpr char identity = 3;  // not the first, so that a driver that forgets it is found out
+constexpr int first_free = 3;  // not 0, so that a driver that forgets it is found out
 constexpr int time_guard = 1;
 constexpr int saturated = 2;
 
@@ -16,8 +16,28 @@ feeler_test::MotorLog motors;
 
 /// 0, or −1 for a device that is not there.
 int answer_for(char id) {
-  if (id != identity) ++device.wrong_ids;
-  return device.is_unplugged || !device.is_open || id != identity ? -1 : 0;
+  if (id != device.id) ++device.wrong_ids;
+  return device.is_unplugged || !device.is_open || id != device.id ? -1 : 0;
+}
+
+int open_index(int index) {
+  if (device.refuses_to_open || index < first_free || index >= first_free + device.device_count) return -1;
+  device.is_open = true;
+  device.id = index;
+  return index;
+}
+
+int close(char id, bool is_in_drd) {
+  const int answer = answer_for(id);
+  if (device.is_open_in_drd != is_in_drd) ++device.broken_rules;
+  device.is_open = device.is_open_in_drd = false;
+  std::fill(device.force, device.force + 3, 0.0);
+  std::fill(device.torque, device.torque + 3, 0.0);
+  return answer;
+}
+
+bool pushes() {
+  return device.is_force_on && device.force_off_cause == 0;
 }
 
 void reset() {
@@ -42,17 +62,52 @@ feeler_test::ForceDimensionStandIn* feeler_stand_in() {
 }
 
 int dhdOpen() {
-  if (device.refuses_to_open || device.device_count == 0) return -1;
-  device.is_open = true;
-  return identity;
+  return open_index(first_free);
+}
+int dhdOpenID(char index) {
+  return open_index(index == -1 ? first_free : index);
+}
+int dhdOpenSerial(int serial_number) {
+  return open_index(serial_number - 1000);
+}
+int dhdClose(char id) {
+  return close(id, false);
 }
 
-int dhdClose(char id) {
-  const int answer = answer_for(id);
-  device.is_open = false;
-  std::fill(device.force, device.force + 3, 0.0);
-  std::fill(device.torque, device.torque + 3, 0.0);
-  return answer;
+int drdOpenID(char id) {
+  if (device.is_unknown_to_drd) return -1;
+  device.is_open_in_drd = true;
+  return answer_for(id) < 0 ? -1 : id;
+}
+int drdClose(char id) {
+  return close(id, true);
+}
+bool drdIsInitialized(char id) {
+  return answer_for(id) == 0 && !device.needs_calibration;
+}
+int drdAutoInit(char id) {
+  if (device.fails_to_initialise) return -1;
+  device.needs_calibration = false;
+  device.is_regulated = true;
+  return answer_for(id);
+}
+int drdStop(bool, char id) {
+  device.is_regulated = false;
+  return answer_for(id);
+}
+
+int dhdGetStatus(int* status, char id) {
+  std::fill(status, status + 17, 0);
+  status[0] = device.has_power ? 1 : 0;
+  status[1] = status[2] = 1;  // connected, started
+  status[3] = device.needs_calibration && !device.only_drd_knows ? 1 : 0;
+  status[4] = pushes() ? 0 : 1;
+  status[5] = pushes() ? 1 : 0;
+  status[6] = device.is_braking ? 1 : 0;
+  status[9] = device.has_error ? 1 : 0;
+  status[10] = device.compensates_gravity ? 1 : 0;
+  status[14] = device.force_off_cause;
+  return answer_for(id);
 }
 
 int dhdGetDeviceCount() {
@@ -82,7 +137,8 @@ unsigned int dhdGetButtonMask(char) {
   return device.buttons;
 }
 
-int dhdSetForceAndTorque(double fx, double fy, double fz, double tx, double ty, double tz, char id) {
+int dhdSetForceAndTorqueAndGripperForce(double fx, double fy, double fz, double tx, double ty, double tz,
+                                        double gripper, char id) {
   const int answer = answer_for(id);
   // A device that is unplugged holds what it was told last, for the worst case; its amplifiers lose power in
   // truth.
@@ -91,6 +147,7 @@ int dhdSetForceAndTorque(double fx, double fy, double fz, double tx, double ty, 
   const double torque[3] = {tx, ty, tz};
   std::copy(force, force + 3, device.force);
   std::copy(torque, torque + 3, device.torque);
+  device.gripper_force = gripper;
   motors.told(std::hypot(fx, fy, fz) + std::hypot(tx, ty, tz));
   return answer < 0 ? answer : (device.is_saturated ? saturated : 0);
 }
@@ -107,6 +164,7 @@ int dhdSetGravityCompensation(int value, char id) {
 
 int dhdEnableForce(unsigned char value, char id) {
   if (device.refuses_force && value != 0) return -1;
+  if (value != 0 && (device.needs_calibration || device.is_regulated)) ++device.broken_rules;
   device.is_force_on = value != 0;
   return answer_for(id);
 }

@@ -1,6 +1,7 @@
 // Devices of Force Dimension through its DHD library: omega, sigma, lambda, delta, and the Novint Falcon.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -14,6 +15,11 @@ struct ForceDimensionSettings {
   /// Tried in this order; libdrd contains all of libdhd.
   std::vector<std::string> libraries = {"libdrd.so", "libdrd.so.3", "libdhd.so", "libdhd.so.3",
                                         "/usr/local/lib/libdrd.so.3"};
+  std::optional<int> serial_number = {};  ///< of one of several devices; goes before the index
+  std::optional<int> index = {};  ///< of one of several, from 0 as the library counts them; neither takes the
+                                  ///< first that is free
+  bool initialises = false;  ///< lets a device that is not calibrated do it by itself: it moves, so hands
+                             ///< off; needs libdrd
 };
 
 /// A device behind libdrd.so or libdhd.so, which is loaded by `open`; `read` and `write` call it directly.
@@ -22,6 +28,10 @@ struct ForceDimensionSettings {
 /// Its gravity compensation is switched on, and lives on every tick being written. A device without a driven
 /// wrist is force-only. A pose that it has not renewed since the last `read` keeps its time; that is no
 /// error. Its specification is that of an omega.6 until `open` asks the device.
+///
+/// A device that is not calibrated is refused, as its poses would be wrong, or initialises itself where the
+/// settings say so. While it has no power or its force is off, by its button for example, it pushes nothing
+/// and every `read` is a warning that says why. A driven gripper is left free.
 class ForceDimensionDevice final : public DrivenDevice {
  public:
   /// @param clock  stamps the poses, outlives the device; none is CLOCK_MONOTONIC
