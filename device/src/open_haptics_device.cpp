@@ -27,6 +27,8 @@ struct Sample {
   DeviceState state;
   const char* complaint = "";
   std::int64_t errors = 0;  // counted since `open`
+  unsigned int calibration = 0;
+  bool has_pose = false;
   bool is_lost = false;
 };
 
@@ -118,7 +120,6 @@ class OpenHapticsDriver final : public Device {
       return "OpenHaptics: the device cannot be opened: " + text_of(error);
     }
     library_.make_current_device(handle_);
-    if (std::string problem = calibrate(); !problem.empty()) return problem;
     if (std::string problem = ask(); !problem.empty()) return problem;
     library_.enable(force_output);
     callback_ = library_.schedule_asynchronous(&OpenHapticsDriver::frame_of, this, highest_priority);
@@ -127,44 +128,34 @@ class OpenHapticsDriver final : public Device {
     if (const unsigned int error = drain_errors(); error != success) {
       return "OpenHaptics: the servo thread cannot be started: " + text_of(error);
     }
+    return await_session();
+  }
+
+  /// Waits until the frames have calibrated the device and found its pose. @return what went wrong
+  std::string await_session() {
     for (int wait = 0; wait < 1000; ++wait) {
       if (samples_.fetch(sample_)) {
-        return sample_.is_lost
-                   ? "OpenHaptics: the device failed with its first pose: " + std::string(sample_.complaint)
-                   : std::string();
+        if (sample_.is_lost)
+          return "OpenHaptics: the device failed with its first pose: " + std::string(sample_.complaint);
+        errors_read_ = sample_.errors;
+        if (sample_.calibration == calibrated && sample_.has_pose) return {};
+        if (sample_.calibration == needs_manual_input ||
+            (sample_.calibration == needs_update && calibration_style_ == 0))
+          break;
       }
       std::this_thread::sleep_for(std::chrono::milliseconds(1));
     }
-    return "OpenHaptics: no pose came within a second: check the cable, and that no other program uses the "
-           "device.";
-  }
-
-  /// Lets the device calibrate itself where it needs nobody's hand for it. Never by an encoder reset: nobody
-  /// knows here that the arm is held in its reset position. Only before a session, because poses jump.
-  /// @return what went wrong
-  std::string calibrate() {
-    constexpr int most_updates = 50;
-    int styles = 0;
-    library_.begin_frame(handle_);
-    library_.get_integers(calibration_styles, &styles);
-    library_.end_frame(handle_);
-    const unsigned int style = unsigned(styles) & (automatic | inkwell);
-    for (int update = 0;; ++update) {
-      const unsigned int calibration = library_.check_calibration();
-      if (const unsigned int error = drain_errors(); error >= first_device_error) {
-        return "OpenHaptics: the device cannot be calibrated: " + text_of(error);
-      }
-      if (calibration == calibrated) return {};
-      if (calibration != needs_update || style == 0 || update == most_updates) {
-        return std::string("OpenHaptics: the device is not calibrated: ") +
-               (calibration == needs_manual_input
-                    ? "put the stylus into its inkwell, or hold the arm as the manual shows, "
-                    : "move the handle through its workspace and put it to rest, ") +
-               "run the calibration of the driver's setup program, then start again.";
-      }
-      library_.update_calibration((style & automatic) != 0 ? automatic : inkwell);
-      std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    const std::string complaint = sample_.complaint;
+    if (sample_.calibration == calibrated || sample_.calibration == 0) {
+      return "OpenHaptics: no pose came within a second" + (complaint.empty() ? "" : " (" + complaint + ")") +
+             ": check the cable, and that no other program uses the device.";
     }
+    if (!complaint.empty()) return "OpenHaptics: the device cannot be calibrated: " + complaint;
+    return std::string("OpenHaptics: the device is not calibrated: ") +
+           (sample_.calibration == needs_manual_input
+                ? "put the stylus into its inkwell, or hold the arm as the manual shows, "
+                : "move the handle through its workspace and put it to rest, ") +
+           "run the calibration of the driver's setup program, then start again.";
   }
 
   /// The model and its figures; inside a frame, as libHD demands.
@@ -172,11 +163,13 @@ class OpenHapticsDriver final : public Device {
     library_.begin_frame(handle_);
     const char* const model = library_.get_string(device_model_type);
     int degrees = 3;
+    int styles = 0;
     int rate = 0;
     double stiffness = 0;
     double force = 0;
     double continuous = 0;
     library_.get_integers(output_degrees, &degrees);
+    library_.get_integers(calibration_styles, &styles);
     library_.get_integers(update_rate, &rate);
     library_.get_doubles(nominal_max_stiffness, &stiffness);
     library_.get_doubles(nominal_max_force, &force);
@@ -189,6 +182,8 @@ class OpenHapticsDriver final : public Device {
     if (const unsigned int error = drain_errors(); error >= first_device_error) {
       return "OpenHaptics: the device does not say what it is: " + text_of(error);
     }
+    const unsigned int own = unsigned(styles) & (automatic | inkwell);
+    calibration_style_ = (own & automatic) != 0 ? unsigned(automatic) : own;
     const std::string name = model != nullptr ? model : "";
     specification_ = preset_of(name);
     if (!name.empty()) specification_.name = name;
@@ -226,6 +221,7 @@ class OpenHapticsDriver final : public Device {
 
   /// One frame, on the servo thread of libHD.
   unsigned int frame() noexcept {
+    if (frame_.calibration != calibrated) calibrate();
     library_.begin_frame(handle_);
     double transform[16] = {};
     int buttons = 0;
@@ -236,11 +232,13 @@ class OpenHapticsDriver final : public Device {
       library_.get_doubles(motor_temperature, temperatures);
       frame_.state.motor_temperature = *std::max_element(temperatures, temperatures + most_motors);
     }
-    note_errors();
-    if (!take_pose(transform))
-      lose("The device reports a pose that is none: check its encoders, then calibrate it.");
-    frame_.state.buttons = std::uint32_t(buttons);
-    frame_.state.time = double(clock_.now() - opened_at_) * 1e-9;
+    if (note_errors()) {
+      if (!take_pose(transform))
+        lose("The device reports a pose that is none: check its encoders, then calibrate it.");
+      frame_.has_pose = true;
+      frame_.state.buttons = std::uint32_t(buttons);
+      frame_.state.time = double(clock_.now() - opened_at_) * 1e-9;
+    }
 
     frames_unfed_ = commands_.fetch(command_) ? 0 : frames_unfed_ + 1;
     const bool is_fed =
@@ -250,6 +248,15 @@ class OpenHapticsDriver final : public Device {
     note_errors();
     samples_.store(frame_);
     return callback_continues;
+  }
+
+  /// Lets the device calibrate itself where it needs nobody's hand for it. Never by an encoder reset: nobody
+  /// knows here that the arm is held in its reset position. In the servo loop, because libHD does it nowhere
+  /// else, outside of a frame, and only before a session, because poses jump.
+  void calibrate() noexcept {
+    frame_.calibration = library_.check_calibration();
+    if (frame_.calibration == needs_update && calibration_style_ != 0)
+      library_.update_calibration(calibration_style_);
   }
 
   void push(const DeviceWrench& wrench) noexcept {
@@ -271,16 +278,24 @@ class OpenHapticsDriver final : public Device {
     return true;
   }
 
-  void note_errors() noexcept {
+  /// @return whether the device answered all the same
+  bool note_errors() noexcept {
     const unsigned int code = drain_errors();
-    if (code == success) return;
+    if (code == success) return true;
     const char* text = sentence_of(code);
     if (text == nullptr) text = library_.get_error_string(code);
     if (text == nullptr) text = "libHD reports an error that it has no words for.";
-    const bool goes_on = code >= first_force_error && code < first_device_error;
-    if (!goes_on) return lose(text);
+    if (ends_session(code)) {
+      lose(text);
+      return false;
+    }
     ++frame_.errors;
     if (!frame_.is_lost) frame_.complaint = text;
+    return is_force_error(code);
+  }
+
+  static bool is_force_error(unsigned int code) noexcept {
+    return code >= first_force_error && code < first_device_error;
   }
 
   void lose(const char* complaint) noexcept {
@@ -292,12 +307,14 @@ class OpenHapticsDriver final : public Device {
 
   /// The worst error that libHD has in store; the store is emptied.
   unsigned int drain_errors() noexcept {
+    const auto severity = [](unsigned int code) {
+      return code == success ? 0 : is_force_error(code) ? 1 : ends_session(code) ? 3 : 2;
+    };
     unsigned int worst = success;
     for (int i = 0; i < 64; ++i) {
       const unsigned int code = library_.get_error().code;
       if (code == success) break;
-      const bool is_device = code >= first_device_error;
-      if (worst == success || (is_device && worst < first_device_error)) worst = code;
+      if (severity(code) > severity(worst)) worst = code;
     }
     return worst;
   }
@@ -320,6 +337,7 @@ class OpenHapticsDriver final : public Device {
   bool is_scheduled_ = false;
   bool is_open_ = false;
   bool tells_temperature_ = false;
+  unsigned int calibration_style_ = 0;  // 0 where it needs a hand
   std::int64_t opened_at_ = 0;
 
   LatestValue<Sample> samples_;    // from the frame to `read`

@@ -55,7 +55,7 @@ const char* sentence_of(unsigned int code) noexcept {
     case force_error:
       return "The device reports a force error (0x0204): let go, then start again.";
     case device_fault:
-      return "The device reports a fault (0x0300): switch it off and on.";
+      return "The device reports a fault (0x0300): wait, and if it stays, switch it off and on.";
     case device_already_initiated:
       return "The device is in use already (0x0301): close the other program that has opened it.";
     case communication_error:
@@ -71,6 +71,20 @@ const char* sentence_of(unsigned int code) noexcept {
       return "OpenHaptics finds no valid licence (0x0600): install the licence that came with it.";
     default:
       return nullptr;
+  }
+}
+
+bool ends_session(unsigned int code) noexcept {
+  switch (code) {
+    case bad_handle:
+    case communication_error:
+    case communication_configuration:
+    case timer_error:
+    case invalid_priority:
+    case scheduler_full:
+      return true;
+    default:
+      return false;
   }
 }
 

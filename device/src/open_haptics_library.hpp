@@ -42,6 +42,7 @@ enum CalibrationStyle : unsigned int {
 
 enum ErrorCode : unsigned int {
   success = 0,
+  bad_handle = 0x104,
   first_force_error = 0x200,  // up to 0x2ff: the device complains and goes on
   warm_motors = 0x200,
   exceeded_max_force = 0x201,
@@ -54,6 +55,8 @@ enum ErrorCode : unsigned int {
   communication_error = 0x302,
   communication_configuration = 0x303,
   timer_error = 0x304,
+  invalid_priority = 0x500,
+  scheduler_full = 0x501,
   invalid_license = 0x600,
 };
 
@@ -99,5 +102,9 @@ struct Library {
 /// What an error of the device means to its user, in a sentence that is never freed; nullptr for one without
 /// a sentence of ours.
 const char* sentence_of(unsigned int code) noexcept;
+
+/// Whether libHD serves the device no longer: what the maker's own utilities call an error of the scheduler,
+/// and a handle of no device. From all others it recovers by itself.
+bool ends_session(unsigned int code) noexcept;
 
 }  // namespace feeler::open_haptics

@@ -147,8 +147,8 @@ BOOST_AUTO_TEST_CASE(a_renderer_that_throws_ends_in_silence_on_every_device) {
   }
 }
 
-BOOST_AUTO_TEST_CASE(force_errors_of_open_haptics_end_in_silence) {
-  for (const unsigned int error : {0x200u, 0x201u, 0x202u, 0x203u, 0x204u}) {
+BOOST_AUTO_TEST_CASE(errors_that_open_haptics_recovers_from_end_in_silence) {
+  for (const unsigned int error : {0x200u, 0x201u, 0x202u, 0x203u, 0x204u, 0x300u, 0x402u}) {
     for (const bool after_push : {false, true}) {
       BOOST_TEST_CONTEXT("error " << error << (after_push ? " after" : " before") << " the push") {
         const auto outcome = run(&feeler_test::open_haptics, [=](Maker& maker, ServoLoop&, World&) {

@@ -158,10 +158,15 @@ BOOST_AUTO_TEST_CASE(a_device_that_cannot_start_is_refused_with_a_sentence_and_l
       {[](auto& hd) { hd.error_at_init = 0x777; }, "an error in the words of libHD"},
       {[](auto& hd) { hd.error_at_start = 0x304; }, "servo timer"},
       {[](auto& hd) { hd.calibration = 0x5002; }, "inkwell"},
-      {[](auto& hd) { hd.calibration = 0x5001, hd.updates_missing = 1000; }, "not calibrated"},
+      {[](auto& hd) { hd.calibration = 0x5001, hd.updates_missing = 1'000'000, hd.own_thread = true; },
+       "not calibrated"},
       // An encoder reset is for who holds the arm in its reset position.
       {[](auto& hd) { hd.calibration = 0x5001, hd.calibration_styles = 1; }, "not calibrated"},
-      {[](auto& hd) { hd.calibration = 0x5001, hd.error_at_update = 0x300; }, "switch it off and on"},
+      {[](auto& hd) { hd.calibration = 0x5001, hd.error_at_update = 0x300; },
+       "cannot be calibrated: The device reports a fault"},
+      {[](auto& hd) { hd.calibration = 0x5001, hd.error_at_update = 0x302; }, "check its power and cable"},
+      {[](auto& hd) { hd.error_in_every_frame = 0x101; },
+       "no pose came within a second (an error in the words of libHD)"},
       {[](auto& hd) { hd.never_calls_back = true; }, "no pose came within a second"},
       {[](auto& hd) { std::fill(hd.transform, hd.transform + 16, 0.0); }, "a pose that is none"},
   };
@@ -181,18 +186,21 @@ BOOST_AUTO_TEST_CASE(a_device_that_cannot_start_is_refused_with_a_sentence_and_l
   }
 }
 
-BOOST_AUTO_TEST_CASE(a_device_that_can_calibrate_itself_does_so_before_it_starts) {
+BOOST_AUTO_TEST_CASE(a_device_that_can_calibrate_itself_does_so_in_the_servo_loop_before_the_session) {
   for (const unsigned int styles : {2u, 4u, 7u}) {
     auto& hd = fresh();
     hd.calibration = 0x5001;
     hd.calibration_styles = styles;
     hd.updates_missing = 3;
+    hd.own_thread = true;
     OpenHapticsDevice device(settings());
     const auto opened = device.open();
     BOOST_TEST(bool(opened), opened.problem);
+    DeviceState state;
+    BOOST_TEST((device.read(state) == DeviceStatus::ok));
+    device.close();
     BOOST_TEST(hd.calibrated_by == (styles == 4 ? 4u : 2u));  // automatic before inkwell, and no encoder reset
     BOOST_TEST(hd.updates_missing == 0);
-    BOOST_TEST((push_once(device, hd) == DeviceStatus::ok));
     BOOST_TEST(hd.broken_rules == 0);
   }
   auto& hd = fresh();
@@ -240,8 +248,36 @@ BOOST_AUTO_TEST_CASE(a_force_written_by_who_has_not_read_of_an_error_is_not_push
   }
 }
 
+BOOST_AUTO_TEST_CASE(an_error_that_libhd_recovers_from_silences_the_device_and_does_not_end_the_session) {
+  for (const unsigned int error : {0x300u, 0x101u, 0x102u, 0x400u, 0x401u, 0x402u}) {
+    auto& hd = fresh();
+    OpenHapticsDevice device(settings());
+    BOOST_REQUIRE(bool(device.open()));
+    push_once(device, hd);
+    DeviceState before;
+    device.read(before);
+    for (int i = 0; i < 5; ++i) {
+      hd.error_in_next_frame = error;
+      hd.transform[12] += 1;
+      push_once(device, hd);
+      BOOST_TEST(is_silent(hd));
+      DeviceState state;
+      BOOST_TEST((device.read(state) == DeviceStatus::warning));
+      BOOST_TEST(std::string(device.complaint()) != "");
+      BOOST_TEST(state.time == before.time);  // the pose of such a frame may be none
+      BOOST_TEST(state.pose.position[0] == before.pose.position[0]);
+    }
+    push_once(device, hd);
+    push_once(device, hd);
+    BOOST_TEST(!is_silent(hd));
+    DeviceState after;
+    BOOST_TEST((device.read(after) == DeviceStatus::ok));
+    BOOST_TEST(after.time > before.time);
+  }
+}
+
 BOOST_AUTO_TEST_CASE(a_lost_device_is_a_fault_for_good_and_silent) {
-  for (const unsigned int error : {0x300u, 0x302u, 0x101u}) {
+  for (const unsigned int error : {0x302u, 0x303u, 0x304u, 0x500u, 0x501u, 0x104u}) {
     auto& hd = fresh();
     OpenHapticsDevice device(settings());
     BOOST_REQUIRE(bool(device.open()));

@@ -52,6 +52,7 @@ void reset() {
   device.buttons = 0;
   device.model = fresh.model;
   device.output_degrees = fresh.output_degrees;
+  device.error_in_every_frame = 0;
   device.error_at_init = device.error_at_start = device.error_in_next_frame = device.error_after_push = 0;
   device.calibration = fresh.calibration;
   device.calibration_styles = fresh.calibration_styles;
@@ -105,6 +106,7 @@ void hdBeginFrame(unsigned int handle) {
   is_in_frame = true;
   ++device.frames;
   if (device.error_in_next_frame != 0) errors.push_back(std::exchange(device.error_in_next_frame, 0));
+  if (device.error_in_every_frame != 0) errors.push_back(device.error_in_every_frame);
 }
 
 void hdEndFrame(unsigned int handle) {
@@ -209,14 +211,17 @@ void hdSetDoublev(unsigned int parameter, const double* values) {
 
 #ifndef FEELER_STAND_IN_LACKS_A_FUNCTION
 unsigned int hdCheckCalibration() {
+  const Lock lock(device.mutex);
+  keep_rule(device.is_scheduler_running);
   return device.calibration;
 }
 #endif
 
 void hdUpdateCalibration(unsigned int style) {
   const Lock lock(device.mutex);
-  keep_rule(!device.is_scheduler_running);  // poses jump
-  if (device.error_at_update != 0) errors.push_back(device.error_at_update);
+  keep_rule((style == 1) !=
+            device.is_scheduler_running);  // an encoder reset comes before the loop, all else in it
+  if (device.error_at_update != 0) return errors.push_back(device.error_at_update);
   if ((style & device.calibration_styles) == 0) return errors.push_back(0x100);
   device.calibrated_by = style;
   if (device.calibration == 0x5001 && --device.updates_missing <= 0) device.calibration = 0x5000;

@@ -29,8 +29,9 @@ struct OpenHapticsStandIn {
   int updates_missing = 1;               // until a calibration that needs an update is OK
   unsigned int error_at_update = 0;      // of the calibration
   unsigned int error_in_next_frame = 0;  // once
-  unsigned int error_after_push = 0;     // once, found by hdEndFrame
-  bool has_no_temperature = false;       // asking is an error
+  unsigned int error_in_every_frame = 0;
+  unsigned int error_after_push = 0;  // once, found by hdEndFrame
+  bool has_no_temperature = false;    // asking is an error
   bool never_calls_back = false;
 
   // The motors, and the rules that were kept.

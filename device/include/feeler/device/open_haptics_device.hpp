@@ -21,14 +21,15 @@ struct OpenHapticsSettings {
 /// The servo thread of libHD exchanges pose and wrench once a frame; `read` and `write` hand them over
 /// without waiting. So a slow renderer never holds up that thread, and it is a watchdog: from the third frame
 /// without a new wrench on, it pushes nothing. An error of the device silences it at once, until a wrench is
-/// written by somebody who has read of the error.
+/// written by somebody who has read of the error; only an error from which libHD does not recover ends the
+/// session.
 ///
 /// Millimetres and millinewton metres end here. The torque goes out in base axes (HD_CURRENT_TORQUE), never
 /// as joint torques of the gimbal.
 ///
-/// `open` waits up to a second for the first pose. A device that can calibrate itself does so; one that needs
-/// a hand for it is refused, as its poses would be wrong. Its specification is that of a Phantom Premium
-/// 3.0/6DOF until `open` asks the device.
+/// `open` waits up to a second for the first pose. A device that can calibrate itself does so in its first
+/// frames; one that needs a hand for it is refused, as its poses would be wrong. Its specification is that of
+/// a Phantom Premium 3.0/6DOF until `open` asks the device.
 class OpenHapticsDevice final : public DrivenDevice {
  public:
   /// @param clock  stamps the poses, outlives the device; none is CLOCK_MONOTONIC
