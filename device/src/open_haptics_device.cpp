@@ -5,6 +5,7 @@
 #include <chrono>
 #include <cmath>
 #include <memory>
+#include <mutex>
 #include <thread>
 #include <utility>
 
@@ -12,19 +13,21 @@
 #include "feeler/device/rotation_matrix.hpp"
 #include "feeler/device/wrench_limit.hpp"
 #include "open_haptics_library.hpp"
+#include "open_haptics_scheduler.hpp"
 
 namespace feeler {
 namespace {
 
 using namespace open_haptics;
 
-constexpr int patience = 2;  // frames without a new wrench before the device goes silent
+constexpr int patience = 2;            // frames without a new wrench before the device goes silent
+constexpr double longest_pause = 0.1;  // without a frame, before it is told [s]
 constexpr std::size_t most_motors = 16;
-constexpr double no_push[3] = {0, 0, 0};
 
 /// What the frame hands to `read`.
 struct Sample {
   DeviceState state;
+  double frame_time = 0;  // when it was made, since `open` [s]
   const char* complaint = "";
   std::int64_t errors = 0;  // counted since `open`
   unsigned int calibration = 0;
@@ -52,7 +55,7 @@ bool is_plausible(double figure) noexcept {
   return figure > 0 && figure < 1e6;
 }
 
-class OpenHapticsDriver final : public Device {
+class OpenHapticsDriver final : public Device, private Framed {
  public:
   OpenHapticsDriver(OpenHapticsSettings settings, Clock* clock)
       : settings_(std::move(settings)), clock_(clock != nullptr ? *clock : monotonic_clock_) {}
@@ -61,6 +64,7 @@ class OpenHapticsDriver final : public Device {
     if (is_open_) return {};
     if (std::string problem = library_.load(settings_.libraries); !problem.empty())
       return {std::move(problem)};
+    const std::lock_guard lock(scheduler_.opening);
     if (std::string problem = claim(); !problem.empty()) {
       release();
       return {std::move(problem)};
@@ -76,6 +80,12 @@ class OpenHapticsDriver final : public Device {
     state = sample_.state;
     const bool complains = sample_.errors != errors_read_;
     errors_read_ = sample_.errors;
+    if (time() - sample_.frame_time > longest_pause) {
+      sample_.complaint =
+          "The servo loop of libHD stands still: wait while another device is opened, or open this one "
+          "again.";
+      return DeviceStatus::warning;
+    }
     return complains ? DeviceStatus::warning : DeviceStatus::ok;
   }
 
@@ -95,6 +105,7 @@ class OpenHapticsDriver final : public Device {
     if (!is_open_) return;
     commands_.store({});
     is_open_ = false;
+    const std::lock_guard lock(scheduler_.opening);
     release();
   }
 
@@ -105,7 +116,7 @@ class OpenHapticsDriver final : public Device {
  private:
   /// Everything from the handle to the first pose. @return what went wrong
   std::string claim() {
-    // What is left of an earlier session; nobody else is here before the scheduler runs.
+    // What is left of an earlier session; nobody else is here before the device is in the servo loop.
     samples_.fetch(sample_);
     commands_.fetch(command_);
     sample_ = {};
@@ -114,20 +125,14 @@ class OpenHapticsDriver final : public Device {
     errors_read_ = 0;
     frames_unfed_ = 0;
     opened_at_ = clock_.now();
-    drain_errors();
-    handle_ = library_.init_device(settings_.device_name.empty() ? nullptr : settings_.device_name.c_str());
+    handle_ = scheduler_.initialise(library_, settings_.device_name);
     if (const unsigned int error = drain_errors(); error != success || handle_ == invalid_handle) {
       return "OpenHaptics: the device cannot be opened: " + text_of(error);
     }
     library_.make_current_device(handle_);
     if (std::string problem = ask(); !problem.empty()) return problem;
     library_.enable(force_output);
-    callback_ = library_.schedule_asynchronous(&OpenHapticsDriver::frame_of, this, highest_priority);
-    is_scheduled_ = true;
-    library_.start_scheduler();
-    if (const unsigned int error = drain_errors(); error != success) {
-      return "OpenHaptics: the servo thread cannot be started: " + text_of(error);
-    }
+    scheduler_.join(library_, *this);
     return await_session();
   }
 
@@ -144,6 +149,10 @@ class OpenHapticsDriver final : public Device {
           break;
       }
       std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    }
+    if (sample_.calibration == 0) {  // not one frame, so nobody else asks for errors
+      if (const unsigned int error = drain_errors(); error != success)
+        return "OpenHaptics: the servo thread cannot be started: " + text_of(error);
     }
     const std::string complaint = sample_.complaint;
     if (sample_.calibration == calibrated || sample_.calibration == 0) {
@@ -198,29 +207,16 @@ class OpenHapticsDriver final : public Device {
   }
 
   void release() noexcept {
-    if (is_scheduled_) {
-      library_.stop_scheduler();
-      library_.unschedule(callback_);
-      is_scheduled_ = false;
-    }
-    if (handle_ != invalid_handle) {
-      library_.begin_frame(handle_);
-      library_.set_doubles(current_force, no_push);
-      if (specification_.pushes_torque()) library_.set_doubles(current_torque, no_push);
-      library_.end_frame(handle_);
-      library_.disable(force_output);
-      library_.disable_device(handle_);
-      handle_ = invalid_handle;
-    }
-    drain_errors();
+    scheduler_.leave(library_, *this, settings_.device_name);
+    handle_ = invalid_handle;
   }
 
-  static unsigned int frame_of(void* driver) noexcept {
-    return static_cast<OpenHapticsDriver*>(driver)->frame();
-  }
+  double time() noexcept { return double(clock_.now() - opened_at_) * 1e-9; }
 
-  /// One frame, on the servo thread of libHD.
-  unsigned int frame() noexcept {
+  Handle handle() const noexcept override { return handle_; }
+
+  void frame(bool must_be_silent) noexcept override {
+    library_.make_current_device(handle_);
     if (frame_.calibration != calibrated) calibrate();
     library_.begin_frame(handle_);
     double transform[16] = {};
@@ -237,17 +233,17 @@ class OpenHapticsDriver final : public Device {
         lose("The device reports a pose that is none: check its encoders, then calibrate it.");
       frame_.has_pose = true;
       frame_.state.buttons = std::uint32_t(buttons);
-      frame_.state.time = double(clock_.now() - opened_at_) * 1e-9;
+      frame_.state.time = time();
     }
 
     frames_unfed_ = commands_.fetch(command_) ? 0 : frames_unfed_ + 1;
-    const bool is_fed =
-        frames_unfed_ <= patience && !frame_.is_lost && command_.errors_known == frame_.errors;
+    const bool is_fed = !must_be_silent && frames_unfed_ <= patience && !frame_.is_lost &&
+                        command_.errors_known == frame_.errors;
     push(is_fed ? command_.wrench : DeviceWrench{});
     library_.end_frame(handle_);
     note_errors();
+    frame_.frame_time = time();
     samples_.store(frame_);
-    return callback_continues;
   }
 
   /// Lets the device calibrate itself where it needs nobody's hand for it. Never by an encoder reset: nobody
@@ -278,24 +274,37 @@ class OpenHapticsDriver final : public Device {
     return true;
   }
 
-  /// @return whether the device answered all the same
+  /// Sorts the errors that libHD has in store by their devices. @return whether this one answered all the
+  /// same
   bool note_errors() noexcept {
-    const unsigned int code = drain_errors();
-    if (code == success) return true;
+    unsigned int worst = success;
+    for (int i = 0; i < most_errors; ++i) {
+      const Error error = library_.get_error();
+      if (error.code == success) break;
+      Framed* const other = error.handle == handle_ ? nullptr : scheduler_.device_of(error.handle);
+      if (other != nullptr)
+        other->take_error(error.code);
+      else if (severity(error.code) > severity(worst))
+        worst = error.code;
+    }
+    take_error(worst);
+    return severity(worst) <= 1;
+  }
+
+  void take_error(unsigned int code) noexcept override {
+    if (code == success) return;
     const char* text = sentence_of(code);
     if (text == nullptr) text = library_.get_error_string(code);
     if (text == nullptr) text = "libHD reports an error that it has no words for.";
-    if (ends_session(code)) {
-      lose(text);
-      return false;
-    }
+    if (ends_session(code)) return lose(text);
     ++frame_.errors;
     if (!frame_.is_lost) frame_.complaint = text;
-    return is_force_error(code);
   }
 
-  static bool is_force_error(unsigned int code) noexcept {
-    return code >= first_force_error && code < first_device_error;
+  /// 0 none, 1 a force error, 2 one without an answer, 3 one that ends the session.
+  static int severity(unsigned int code) noexcept {
+    const bool is_force_error = code >= first_force_error && code < first_device_error;
+    return code == success ? 0 : is_force_error ? 1 : ends_session(code) ? 3 : 2;
   }
 
   void lose(const char* complaint) noexcept {
@@ -307,11 +316,8 @@ class OpenHapticsDriver final : public Device {
 
   /// The worst error that libHD has in store; the store is emptied.
   unsigned int drain_errors() noexcept {
-    const auto severity = [](unsigned int code) {
-      return code == success ? 0 : is_force_error(code) ? 1 : ends_session(code) ? 3 : 2;
-    };
     unsigned int worst = success;
-    for (int i = 0; i < 64; ++i) {
+    for (int i = 0; i < most_errors; ++i) {
       const unsigned int code = library_.get_error().code;
       if (code == success) break;
       if (severity(code) > severity(worst)) worst = code;
@@ -332,9 +338,8 @@ class OpenHapticsDriver final : public Device {
   MonotonicClock monotonic_clock_;
   Clock& clock_;
   Library library_;
+  Scheduler& scheduler_ = Scheduler::shared();
   Handle handle_ = invalid_handle;
-  unsigned long callback_ = 0;
-  bool is_scheduled_ = false;
   bool is_open_ = false;
   bool tells_temperature_ = false;
   unsigned int calibration_style_ = 0;  // 0 where it needs a hand

@@ -71,6 +71,7 @@ static_assert(sizeof(Error) == 12);
 using Callback = unsigned int (*)(void*);
 constexpr unsigned int callback_continues = 1;
 constexpr unsigned short highest_priority = 65535;
+constexpr int most_errors = 64;  // in store at once
 
 /// The functions, fetched by name.
 struct Library {

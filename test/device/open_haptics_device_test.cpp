@@ -3,11 +3,14 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
+#include <chrono>
 #include <cmath>
 #include <limits>
 #include <string>
 #include <thread>
 
+#include "device/scripted_makers.hpp"
 #include "feeler/device/open_haptics_device.hpp"
 #include "feeler/device/servo_loop.hpp"
 #include "stand_in/open_haptics_stand_in.hpp"
@@ -40,6 +43,49 @@ bool says(const std::string& sentence, const char* words) {
 }
 
 constexpr DeviceWrench some_push{{1, -2, 3}, {0.01, 0.02, -0.03}};
+
+feeler::OpenHapticsSettings settings_of_second() {
+  return {{FEELER_OPEN_HAPTICS_STAND_IN}, "second"};
+}
+
+/// Reads and writes as a servo loop does, on a thread of its own.
+class Loop {
+ public:
+  explicit Loop(OpenHapticsDevice& device) : thread_([this, &device] { run(device); }) {}
+  ~Loop() {
+    is_ending_ = true;
+    thread_.join();
+  }
+  Loop(const Loop&) = delete;
+  Loop& operator=(const Loop&) = delete;
+  /// Whether the device gave a new pose and took a force since this was asked last; waits for it up to a second.
+  bool goes_on() {
+    const int ticks = good_ticks_;
+    for (int wait = 0; wait < 1000 && good_ticks_ < ticks + 3; ++wait)
+      std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    return good_ticks_ >= ticks + 3;
+  }
+
+ private:
+  void run(OpenHapticsDevice& device) {
+    DeviceState state;
+    double last = -1;
+    while (!is_ending_) {
+      const bool is_good = device.read(state) == DeviceStatus::ok && state.time > last;
+      last = state.time;
+      if (is_good && device.write(some_push) == DeviceStatus::ok) ++good_ticks_;
+      std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    }
+  }
+  std::atomic<bool> is_ending_ = false;
+  std::atomic<int> good_ticks_ = 0;
+  std::thread thread_;
+};
+
+double locked(feeler_test::OpenHapticsStandIn& hd, const double& value) {
+  const std::lock_guard<std::mutex> lock(hd.mutex);
+  return value;
+}
 
 /// One tick of the servo loop between two frames of the device.
 DeviceStatus push_once(OpenHapticsDevice& device, feeler_test::OpenHapticsStandIn& hd) {
@@ -381,6 +427,103 @@ BOOST_AUTO_TEST_CASE(the_servo_thread_of_the_library_the_loop_and_a_watcher_get_
   device.close();
   BOOST_TEST(is_silent(hd));
   BOOST_TEST(hd.broken_rules == 0);
+}
+
+BOOST_AUTO_TEST_CASE(a_device_that_closes_leaves_the_other_in_the_servo_loop) {
+  auto& hd = fresh();
+  hd.own_thread = true;
+  OpenHapticsDevice one(settings());
+  OpenHapticsDevice other(settings_of_second());
+  BOOST_REQUIRE(bool(one.open()));
+  BOOST_REQUIRE(bool(other.open()));
+  BOOST_TEST(hd.starts == 2);  // it paused for the second
+  {
+    Loop loop_of_one(one);
+    Loop loop_of_other(other);
+    BOOST_TEST(loop_of_one.goes_on());
+    BOOST_TEST(loop_of_other.goes_on());
+  }
+  {
+    Loop loop(other);
+    BOOST_TEST(loop.goes_on());
+    one.close();
+    BOOST_TEST(locked(hd, hd.force[2]) == 0);
+    BOOST_TEST(loop.goes_on());
+    BOOST_TEST(locked(hd, hd.second_force[2]) == some_push.force[2]);
+    BOOST_TEST(hd.starts == 2);  // and not for this
+    BOOST_REQUIRE(bool(one.open()));
+    BOOST_TEST(loop.goes_on());
+    one.close();
+    BOOST_TEST(loop.goes_on());
+  }
+  other.close();
+  BOOST_TEST(!hd.is_scheduler_running);
+  BOOST_TEST(!hd.is_initialised);
+  BOOST_TEST(!hd.is_second_initialised);
+  BOOST_TEST(!hd.is_output_on);
+  BOOST_TEST(hd.second_force[2] == 0);
+  BOOST_TEST(hd.broken_rules == 0);
+}
+
+BOOST_AUTO_TEST_CASE(a_device_that_cannot_be_opened_leaves_the_other_in_the_servo_loop) {
+  struct Fault {
+    void (*cause)(feeler_test::OpenHapticsStandIn&);
+    const char* words;
+  };
+  const Fault faults[] = {
+      {[](auto& hd) { hd.error_at_init = 0x302; }, "check its power and cable"},
+      {[](auto& hd) { hd.error_at_start = 0x304; }, "servo timer"},
+      {[](auto& hd) { hd.calibration = 0x5002; }, "inkwell"},
+  };
+  for (const Fault& fault : faults) {
+    auto& hd = fresh();
+    hd.own_thread = true;
+    OpenHapticsDevice one(settings());
+    OpenHapticsDevice other(settings_of_second());
+    BOOST_REQUIRE(bool(one.open()));
+    Loop loop(one);
+    BOOST_TEST(loop.goes_on());
+    {
+      const std::lock_guard<std::mutex> lock(hd.mutex);
+      fault.cause(hd);
+    }
+    const auto opened = other.open();
+    BOOST_TEST(!opened);
+    BOOST_TEST(says(opened.problem, fault.words), opened.problem);
+    BOOST_TEST(loop.goes_on());
+    BOOST_TEST(locked(hd, hd.second_force[2]) == 0);
+    BOOST_TEST(hd.broken_rules == 0);
+  }
+}
+
+BOOST_AUTO_TEST_CASE(an_error_of_one_device_does_not_end_the_session_of_the_other) {
+  auto& hd = fresh();
+  OpenHapticsDevice one(settings());
+  OpenHapticsDevice other(settings_of_second());
+  BOOST_REQUIRE(bool(one.open()));
+  BOOST_REQUIRE(bool(other.open()));
+  push_once(one, hd);
+  hd.error_of_second_in_next_frame = 0x302;
+  hd.tick();
+  hd.tick();
+  DeviceState state;
+  BOOST_TEST((one.read(state) == DeviceStatus::ok));
+  BOOST_TEST((other.read(state) == DeviceStatus::fault));
+  BOOST_TEST(says(other.complaint(), "0x0302"));
+}
+
+BOOST_AUTO_TEST_CASE(a_servo_loop_that_stands_still_is_told) {
+  feeler_test::World world;
+  auto& hd = fresh();
+  OpenHapticsDevice device(settings(), &world);
+  BOOST_REQUIRE(bool(device.open()));
+  DeviceState state;
+  BOOST_TEST((device.read(state) == DeviceStatus::ok));
+  world.spend(200);
+  BOOST_TEST((device.read(state) == DeviceStatus::warning));
+  BOOST_TEST(says(device.complaint(), "stands still"));
+  hd.tick();
+  BOOST_TEST((device.read(state) == DeviceStatus::ok));
 }
 
 BOOST_AUTO_TEST_CASE(closing_lets_go_and_opening_again_starts_afresh) {

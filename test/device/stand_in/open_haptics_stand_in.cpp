@@ -8,6 +8,7 @@
 #include <chrono>
 #include <cmath>
 #include <cstdlib>
+#include <cstring>
 #include <deque>
 #include <thread>
 #include <utility>
@@ -24,10 +25,12 @@ struct ErrorInformation {
 
 feeler_test::OpenHapticsStandIn device;
 feeler_test::MotorLog motors;
-std::deque<unsigned int> errors;
+std::deque<ErrorInformation> errors;
+constexpr unsigned int first = 7, second = 8, nobody = 0xFFFFFFFF;  // handles
+unsigned int current = nobody;
 unsigned int (*callback)(void*) = nullptr;
 void* callback_argument = nullptr;
-bool is_in_frame = false;
+unsigned int in_frame = nobody;
 std::thread servo_thread;
 std::atomic<bool> is_stopping = false;
 
@@ -39,7 +42,16 @@ void keep_rule(bool is_kept) {
   if (!is_kept) ++device.broken_rules;
 }
 
-void let_go() {
+bool is_initialised(unsigned int handle) {
+  return handle == first ? device.is_initialised : handle == second && device.is_second_initialised;
+}
+
+void fail(unsigned int code, unsigned int handle = current) {
+  errors.push_back({code, -1, handle});
+}
+
+void let_go(unsigned int handle) {
+  if (handle == second) return void(std::fill(device.second_force, device.second_force + 3, 0.0));
   std::fill(device.force, device.force + 3, 0.0);
   std::fill(device.torque, device.torque + 3, 0.0);
 }
@@ -59,14 +71,17 @@ void reset() {
   device.updates_missing = fresh.updates_missing;
   device.error_at_update = device.calibrated_by = 0;
   device.has_no_temperature = device.never_calls_back = device.own_thread = false;
-  let_go();
+  let_go(first);
+  let_go(second);
   motors.told(0);
   std::fill(device.joint_torque, device.joint_torque + 3, 0.0);
   device.is_output_on = device.is_initialised = device.is_scheduler_running = false;
-  device.frames = device.broken_rules = 0;
+  device.is_second_initialised = false;
+  device.error_of_second_in_next_frame = 0;
+  device.frames = device.starts = device.broken_rules = 0;
   errors.clear();
   callback = nullptr;
-  is_in_frame = false;
+  in_frame = current = nobody;
 }
 
 }  // namespace
@@ -80,48 +95,59 @@ feeler_test::OpenHapticsStandIn* feeler_stand_in() {
   return &device;
 }
 
-unsigned int hdInitDevice(const char*) {
+// Not while the servo loop runs, and not while another device holds a force that nobody updates meanwhile.
+unsigned int hdInitDevice(const char* name) {
   const Lock lock(device.mutex);
-  if (device.error_at_init != 0) {
-    errors.push_back(device.error_at_init);
-    return 0xFFFFFFFF;
+  keep_rule(!device.is_scheduler_running);
+  const unsigned int handle = name != nullptr && std::strcmp(name, "second") == 0 ? second : first;
+  if (handle == second) keep_rule(std::hypot(device.force[0], device.force[1], device.force[2]) == 0);
+  const unsigned int error = is_initialised(handle) ? 0x301 : device.error_at_init;
+  if (error != 0) {
+    fail(error, nobody);
+    return nobody;
   }
-  device.is_initialised = true;
-  return 7;
+  (handle == first ? device.is_initialised : device.is_second_initialised) = true;
+  current = handle;
+  return handle;
 }
 
 void hdDisableDevice(unsigned int handle) {
   const Lock lock(device.mutex);
-  keep_rule(handle == 7 && device.is_initialised && !device.is_scheduler_running);
-  device.is_initialised = false;
+  keep_rule(is_initialised(handle) && !device.is_scheduler_running);
+  (handle == first ? device.is_initialised : device.is_second_initialised) = false;
 }
 
 void hdMakeCurrentDevice(unsigned int handle) {
-  keep_rule(handle == 7);
+  const Lock lock(device.mutex);
+  keep_rule(is_initialised(handle));
+  current = handle;
 }
 
 void hdBeginFrame(unsigned int handle) {
   const Lock lock(device.mutex);
-  keep_rule(handle == 7 && !is_in_frame);
-  is_in_frame = true;
+  keep_rule(is_initialised(handle) && in_frame == nobody);
+  in_frame = current = handle;
+  if (handle == second) return;
   ++device.frames;
-  if (device.error_in_next_frame != 0) errors.push_back(std::exchange(device.error_in_next_frame, 0));
-  if (device.error_in_every_frame != 0) errors.push_back(device.error_in_every_frame);
+  if (device.error_in_next_frame != 0) fail(std::exchange(device.error_in_next_frame, 0));
+  if (device.error_in_every_frame != 0) fail(device.error_in_every_frame);
+  if (device.error_of_second_in_next_frame != 0)
+    fail(std::exchange(device.error_of_second_in_next_frame, 0), second);
 }
 
 void hdEndFrame(unsigned int handle) {
   const Lock lock(device.mutex);
-  keep_rule(handle == 7 && is_in_frame);
-  is_in_frame = false;
-  if (device.error_after_push != 0) errors.push_back(std::exchange(device.error_after_push, 0));
+  keep_rule(handle != nobody && in_frame == handle);
+  in_frame = nobody;
+  if (handle == first && device.error_after_push != 0) fail(std::exchange(device.error_after_push, 0));
 }
 
 ErrorInformation hdGetError() {
   const Lock lock(device.mutex);
-  if (errors.empty()) return {0, 0, 7};
-  const unsigned int code = errors.front();
+  if (errors.empty()) return {0, 0, nobody};
+  const ErrorInformation error = errors.front();
   errors.pop_front();
-  return {code, -1, 7};
+  return error;
 }
 
 const char* hdGetErrorString(unsigned int) {
@@ -130,26 +156,25 @@ const char* hdGetErrorString(unsigned int) {
 
 void hdEnable(unsigned int capability) {
   const Lock lock(device.mutex);
-  if (capability == 0x4000) device.is_output_on = true;
+  if (capability == 0x4000 && current == first) device.is_output_on = true;
 }
 
 void hdDisable(unsigned int capability) {
   const Lock lock(device.mutex);
-  if (capability == 0x4000) {
-    device.is_output_on = false;
-    let_go();
-  }
+  if (capability != 0x4000) return;
+  if (current == first) device.is_output_on = false;
+  let_go(current);
 }
 
 void hdGetIntegerv(unsigned int parameter, int* value) {
   const Lock lock(device.mutex);
-  keep_rule(is_in_frame);
+  keep_rule(in_frame != nobody);
   switch (parameter) {
     case 0x2000:
       *value = device.buttons;
       break;
     case 0x2554:
-      *value = device.output_degrees;
+      *value = current == second ? 3 : device.output_degrees;
       break;
     case 0x2555:
       *value = int(device.calibration_styles);
@@ -158,13 +183,13 @@ void hdGetIntegerv(unsigned int parameter, int* value) {
       *value = 1000;
       break;
     default:
-      errors.push_back(0x100);
+      fail(0x100);
   }
 }
 
 void hdGetDoublev(unsigned int parameter, double* values) {
   const Lock lock(device.mutex);
-  keep_rule(is_in_frame);
+  keep_rule(in_frame != nobody);
   switch (parameter) {
     case 0x2052:
       std::copy(device.transform, device.transform + 16, values);
@@ -180,13 +205,13 @@ void hdGetDoublev(unsigned int parameter, double* values) {
       break;
     case 0x2605:
       if (device.has_no_temperature) {
-        errors.push_back(0x103);
+        fail(0x103);
       } else {
         std::copy(device.temperatures, device.temperatures + 6, values);
       }
       break;
     default:
-      errors.push_back(0x100);
+      fail(0x100);
   }
 }
 
@@ -196,13 +221,17 @@ const char* hdGetString(unsigned int parameter) {
 
 void hdSetDoublev(unsigned int parameter, const double* values) {
   const Lock lock(device.mutex);
-  keep_rule(is_in_frame);
+  keep_rule(in_frame != nobody);
   double* axes = nullptr;
+  if (current == second) {  // without motors for torques
+    if (parameter != 0x2700) return fail(0x100);
+    return void(std::copy(values, values + 3, device.second_force));
+  }
   if (parameter == 0x2700) axes = device.force;
   if (parameter == 0x2701) axes = device.torque;
   if (parameter == 0x2704) axes = device.joint_torque;
   if (axes == nullptr || (parameter != 0x2700 && device.output_degrees < 6)) {
-    errors.push_back(0x100);
+    fail(0x100);
   } else {
     std::copy(values, values + 3, axes);
     if (parameter == 0x2700) motors.told(std::hypot(values[0], values[1], values[2]));
@@ -221,13 +250,14 @@ void hdUpdateCalibration(unsigned int style) {
   const Lock lock(device.mutex);
   keep_rule((style == 1) !=
             device.is_scheduler_running);  // an encoder reset comes before the loop, all else in it
-  if (device.error_at_update != 0) return errors.push_back(device.error_at_update);
-  if ((style & device.calibration_styles) == 0) return errors.push_back(0x100);
+  if (device.error_at_update != 0) return fail(device.error_at_update);
+  if ((style & device.calibration_styles) == 0) return fail(0x100);
   device.calibrated_by = style;
   if (device.calibration == 0x5001 && --device.updates_missing <= 0) device.calibration = 0x5000;
 }
 
 unsigned long hdScheduleAsynchronous(unsigned int (*function)(void*), void* argument, unsigned short) {
+  keep_rule(callback == nullptr);
   callback = function;
   callback_argument = argument;
   return 42;
@@ -242,10 +272,12 @@ void hdStartScheduler() {
   {
     const Lock lock(device.mutex);
     if (device.error_at_start != 0) {
-      errors.push_back(device.error_at_start);
+      fail(std::exchange(device.error_at_start, 0), nobody);
       return;
     }
-    device.is_scheduler_running = true;
+    keep_rule(!device.is_scheduler_running);
+    if (std::exchange(device.is_scheduler_running, true)) return;
+    ++device.starts;
   }
   // The variable is for programs that do not know that this is a stand-in.
   if (!device.own_thread && std::getenv("FEELER_STAND_IN_RUNS_BY_ITSELF") == nullptr) return run_frame();

@@ -42,8 +42,15 @@ struct OpenHapticsStandIn {
   bool is_initialised = false;
   bool is_scheduler_running = false;
   int frames = 0;
+  int starts = 0;                  // of the scheduler
   unsigned int calibrated_by = 0;  // the style of the last update
-  int broken_rules = 0;            // a get, a set or an end outside a frame
+  int broken_rules = 0;  // a get, a set or an end outside a frame, a device initialised or disabled while the
+                         // scheduler runs, and the like
+
+  // A second device, named "second", in the same hand.
+  double second_force[3] = {0, 0, 0};  // [N]
+  bool is_second_initialised = false;
+  unsigned int error_of_second_in_next_frame = 0;  // once, found in the frame of the first
 
   // Runs the scheduled frames once, as the servo thread does.
   void (*tick)() = nullptr;

@@ -27,6 +27,10 @@ struct OpenHapticsSettings {
 /// Millimetres and millinewton metres end here. The torque goes out in base axes (HD_CURRENT_TORQUE), never
 /// as joint torques of the gimbal.
 ///
+/// Several devices, each by its name, share that thread. It pauses while a further one is opened: open all of
+/// them before you start a loop. Those that are closed leave the others alone. While no frame comes for a
+/// tenth of a second, `read` is a warning.
+///
 /// `open` waits up to a second for the first pose. A device that can calibrate itself does so in its first
 /// frames; one that needs a hand for it is refused, as its poses would be wrong. Its specification is that of
 /// a Phantom Premium 3.0/6DOF until `open` asks the device.
