@@ -1,11 +1,9 @@
 // Walks from triangle to triangle over the surface of a mesh, towards a point above it.
 #pragma once
 
-#include <array>
-#include <cstddef>
-
 #include "feeler/core/scalar.hpp"
 #include "feeler/object/triangle_mesh.hpp"
+#include "feeler/object/triangle_query.hpp"
 
 namespace feeler {
 
@@ -47,21 +45,13 @@ int triangle_of_wall_under(const TriangleMesh<MeshScalar>& mesh, int wall, const
   const Vector3<Scalar> normal = mesh.normal(plane.triangle).template cast<Scalar>();
   const Vector3<Scalar> corner = mesh.vertex(mesh.triangle(plane.triangle)[0]).template cast<Scalar>();
   const Vector3<Scalar> below = point - normal * normal.dot(point - corner);
-  const Vector3<Scalar> from_boxes = below - mesh.bvh().origin().template cast<Scalar>();
-  const Scalar around = Scalar(plane.flatness) + seam;
+  const Vector3<Scalar> around = Vector3<Scalar>::Constant(Scalar(plane.flatness) + seam);
   int found = -1;
-  mesh.bvh().visit(
-      [&](const std::array<float, 3>& lower, const std::array<float, 3>& upper) {
-        for (int k = 0; k < 3; ++k) {
-          if (from_boxes[k] + around < Scalar(lower[std::size_t(k)]) || from_boxes[k] - around > Scalar(upper[std::size_t(k)])) return true;
-        }
-        return false;
-      },
-      [&](int triangle) {
-        if (mesh.walls().of_triangle(triangle) != wall || edge_towards(mesh, triangle, below, seam) >= 0) return true;
-        found = triangle;
-        return false;
-      });
+  visit_triangles_in(mesh, Eigen::AlignedBox<Scalar, 3>(below - around, below + around), [&](int triangle) {
+    if (mesh.walls().of_triangle(triangle) != wall || edge_towards(mesh, triangle, below, seam) >= 0) return true;
+    found = triangle;
+    return false;
+  });
   return found;
 }
 
