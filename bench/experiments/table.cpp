@@ -15,6 +15,7 @@ namespace {
 
 Settings<double> with_stiffness(Method method, double rotational) {
   Settings<double> settings;
+  settings.closed_means_solid = false;  // the paper's cavity faces outwards
   settings.stiffness = Stiffness<double>::uniform(1000.0, rotational);
   const bool is_shared = method == Method::shared_metric || method == Method::all_corrections || method == Method::standard;
   if (!is_shared) settings.metric = Metric<double>::with_length(0.01);

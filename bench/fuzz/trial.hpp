@@ -26,6 +26,7 @@ struct Finding {
 /// Settings in the ranges that their documentation gives, many of them unwise.
 inline Settings<double> random_settings(std::mt19937& bits, bool is_about_centre) {
   Settings<double> settings;
+  settings.closed_means_solid = false;  // rooms face either way
   const auto one_in = [&](int count) { return below(bits, count) == 0; };
   if (one_in(2)) settings.margin = magnitude(bits, -8, -4);
   if (one_in(3)) settings.work_budget = int(magnitude(bits, 0, 5));

@@ -31,6 +31,7 @@ inline Scene cavity(double clearance = 1e-3) {
                    {0.013 * std::sin(6.0 * t), 0.004 * std::sin(9.0 * t), 0.007 * std::sin(7.0 * t)});
   };
   scene.start = scene.motion(0.0);
+  scene.closed_means_solid = false;
   scene.length = 0.010;
   return scene;
 }

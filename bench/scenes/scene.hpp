@@ -32,6 +32,7 @@ struct Setting {
   Vector3<double> tip = Vector3<double>::Zero();  ///< point of the tool to look at, in the tool frame [m]
   double length = 0.01;                           ///< L of the metric diag(1, 1, 1, L², L², L²) [m]
   double duration = 10.0;                         ///< of a full run [s]
+  bool closed_means_solid = true;                 ///< false where the tool starts in a room whose normals point outwards
   double hardness = 1000.0;                       ///< K as a multiple of M [N/m]; figures are compared at 1000
 
   /// K = hardness × M.
@@ -42,6 +43,7 @@ struct Setting {
   Settings<double> settings() const {
     Settings<double> settings;
     settings.stiffness = stiffness();
+    settings.closed_means_solid = closed_means_solid;
     return settings;
   }
 };

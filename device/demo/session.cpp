@@ -137,7 +137,10 @@ Recording run(const scenes::Scene& scene, const Tool& tool, const SessionSetting
   const TriangleMesh<double> object(scene.vertices, scene.triangles);
   if (const std::string warning = unit_warning(object, tool); !warning.empty()) std::printf("  note: %s\n", warning.c_str());
   HapticRenderer renderer(object, tool, renderer_settings);
-  if (renderer.reset(scene.start) != Status::converged) {
+  const Status start = renderer.reset(scene.start);
+  if (start == Status::inside)
+    throw BadInput("The start pose of the scene " + scene.name + " is in the solid that the object encloses: start outside (--start).");
+  if (start != Status::converged) {
     throw BadInput(
         "The start pose of the scene " + scene.name +
         " penetrates the object: start outside (--start) or give a clearance of 0 or more (--clearance).");

@@ -233,6 +233,7 @@ BOOST_AUTO_TEST_CASE(float_and_long_double_follow_too) {
     using Tool = Box<Scalar>;
     const TriangleMesh<Scalar> object(scene.vertices.template cast<Scalar>(), scene.triangles);
     Settings<Scalar> settings;
+    settings.closed_means_solid = scene.closed_means_solid;
     settings.stiffness = Stiffness<Scalar>::uniform(Scalar(1000), Scalar(0.1));
     HapticRenderer<Tool, DualActiveSet<WorkingScalar<Scalar>>, CandidateContacts<certified>> renderer(
         object, Tool(Vector3<Scalar>::Constant(Scalar(0.01))), settings);

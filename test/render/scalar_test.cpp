@@ -21,6 +21,7 @@ namespace {
 Settings<float> float_settings(const scenes::Scene& scene) {
   Settings<float> settings;
   settings.stiffness = {scene.stiffness().translational.cast<float>(), scene.stiffness().rotational.cast<float>()};
+  settings.closed_means_solid = scene.closed_means_solid;
   return settings;
 }
 
@@ -28,6 +29,7 @@ Settings<float> float_settings(const scenes::Scene& scene) {
 Settings<double> widened(const Settings<float>& from) {
   Settings<double> settings;
   settings.stiffness = {from.stiffness.translational.cast<double>(), from.stiffness.rotational.cast<double>()};
+  settings.closed_means_solid = from.closed_means_solid;
   settings.margin = double(from.margin);
   settings.trust_radius = double(from.trust_radius);
   settings.step_tolerance = double(from.step_tolerance);
@@ -96,6 +98,7 @@ BOOST_AUTO_TEST_CASE(a_long_double_renderer_gives_the_poses_of_a_double_one) {
   const TriangleMesh<long double> wide_object(scene.vertices.cast<long double>(), scene.triangles);
   const Box<double> tool = std::get<Box<double>>(scene.tool);
   Settings<long double> settings;
+  settings.closed_means_solid = scene.closed_means_solid;
   settings.stiffness = {scene.stiffness().translational.cast<long double>(), scene.stiffness().rotational.cast<long double>()};
   HapticRenderer renderer(object, tool, scene.settings());
   HapticRenderer wide(wide_object, tool.cast<long double>(), settings);

@@ -106,6 +106,7 @@ inline Pose<double> relative_to(const Pose<double>& outer, const Pose<double>& p
 /// Margin and metric: a third of each other than the defaults.
 inline Settings<double> random_law_settings(std::mt19937& bits) {
   Settings<double> settings;
+  settings.closed_means_solid = false;  // rooms face either way
   if (below(bits, 3) == 0) settings.margin = magnitude(bits, -7, -5);
   if (below(bits, 3) == 0) settings.stiffness = Stiffness<double>::uniform(1000, 1000 * magnitude(bits, -5, -3));
   return settings;

@@ -7,6 +7,7 @@
 
 #include "feeler/core/result.hpp"
 #include "feeler/core/status.hpp"
+#include "feeler/object/mesh_interior.hpp"
 #include "feeler/object/triangle_mesh.hpp"
 #include "feeler/qp/dual_active_set.hpp"
 #include "feeler/render/closest_features.hpp"
@@ -50,7 +51,11 @@ class HapticRenderer {
   /// The metric in which the graphic pose is the nearest.
   const Metric<Working>& metric() const noexcept { return scene_.metric(); }
 
-  /// Puts the graphic tool at a pose; `TickStatus::penetrating` if it would overlap the object there, and then the renderer holds no pose.
+  /// What does not change: object, tool, metric and settings.
+  const RenderedScene<Tool>& scene() const noexcept { return scene_; }
+
+  /// Puts the graphic tool at a pose; `TickStatus::penetrating` if it would overlap the object there, `TickStatus::inside` if it would be in a solid, and
+  /// then the renderer holds no pose and no force. `nearest_free_pose` finds one.
   /// @cost  not bounded by the work budget: for use outside the loop
   TickStatus reset(const Pose<Scalar>& pose) noexcept;
 
@@ -74,9 +79,11 @@ class HapticRenderer {
 
  private:
   bool is_free_at(const Pose<Working>& pose) const noexcept;
+  bool is_inside_at(const Pose<Working>& pose) const noexcept;
   void report(const Pose<Working>& target) noexcept;
 
   RenderedScene<Tool> scene_;
+  MeshInterior interior_;
   Follower follower_;
   bool is_reset_ = false;
   Tick<Scalar> tick_;
@@ -87,7 +94,7 @@ class HapticRenderer {
 template <RigidTool ToolType, QpSolver Solver, ContactMethod<ToolType, Solver> Method>
 HapticRenderer<ToolType, Solver, Method>::HapticRenderer(const TriangleMesh<Scalar>& object, const Tool& tool,
                                                          const Settings<Scalar>& settings)
-    : scene_(object, tool, settings) {}
+    : scene_(object, tool, settings), interior_(object) {}
 
 template <RigidTool ToolType, QpSolver Solver, ContactMethod<ToolType, Solver> Method>
 TickStatus HapticRenderer<ToolType, Solver, Method>::reset(const Pose<Scalar>& pose) noexcept {
@@ -97,6 +104,7 @@ TickStatus HapticRenderer<ToolType, Solver, Method>::reset(const Pose<Scalar>& p
   tick_.graphic_pose = pose.normalized();
   const Pose<Working> reference_pose = scene_.reference_pose(pose);
   if (!is_free_at(reference_pose)) return tick_.status = TickStatus::penetrating;
+  if (is_inside_at(reference_pose)) return tick_.status = TickStatus::inside;
   follower_.reset(scene_, reference_pose);
   tick_.graphic_pose = scene_.tool_pose(reference_pose);  // to the last bit what ticks that do not move give
   is_reset_ = true;
@@ -141,6 +149,20 @@ bool HapticRenderer<ToolType, Solver, Method>::is_free_at(const Pose<Working>& p
   int work = 0;
   MotionCertificate<Tool> certificate;
   return certificate.certify(scene_, pose, {}, work, (std::numeric_limits<int>::max)()).blockers.empty();
+}
+
+/// Of a free pose. A piece that crosses no triangle is in a solid with all of it, or with none.
+template <RigidTool ToolType, QpSolver Solver, ContactMethod<ToolType, Solver> Method>
+bool HapticRenderer<ToolType, Solver, Method>::is_inside_at(const Pose<Working>& pose) const noexcept {
+  if (!settings().closed_means_solid || interior_.is_empty()) return false;
+  const Pose<Working> frame = scene_.tool_frame(pose);
+  // A thin tool that lies on the surface is within rounding of either side.
+  const auto rounding = static_cast<double>(2 * scene_.clearance().negligible() + scene_.clearance().rounding);
+  for (int i = 0; i < scene_.piece_count(); ++i) {
+    const Vector3<Working> point = frame * middle_of(scene_.piece(i));
+    if (interior_.encloses(scene_.object(), Vector3<double>(point.template cast<double>()), rounding)) return true;
+  }
+  return false;
 }
 
 template <RigidTool ToolType, QpSolver Solver, ContactMethod<ToolType, Solver> Method>

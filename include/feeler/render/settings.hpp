@@ -33,6 +33,10 @@ struct Settings {
   /// the object reaches a metre from the origin.
   Scalar margin = Scalar(1e-6);
 
+  /// Whether what a closed surface of the object encloses is solid, so that `reset` refuses a tool inside. False for a room whose normals point
+  /// outwards; where they point inwards it is free anyway (`MeshInterior`). Ticks do not ask: all triangles are obstacles from both sides.
+  bool closed_means_solid = true;
+
   /// Longest motion of any tool point between two linearisations in contact [m]; up to eight times as long where nothing has stopped a few
   /// such motions. More follows a fast hand with fewer iterations, and
   /// makes one bad linearisation cost more. Less than 1e-6 is refused.

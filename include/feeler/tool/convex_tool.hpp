@@ -67,6 +67,14 @@ typename Tool::Scalar highest_along(const Tool& tool, const Vector3<typename Too
   }
 }
 
+/// A point of a tool, away from its surface where it is not thin: the mean of its vertices, in the tool frame [m].
+template <ConvexTool Tool>
+Vector3<typename Tool::Scalar> middle_of(const Tool& tool) noexcept {
+  Vector3<typename Tool::Scalar> sum = Vector3<typename Tool::Scalar>::Zero();
+  for (int i = 0; i < tool.vertex_count(); ++i) sum += tool.vertex(i);
+  return sum / typename Tool::Scalar(tool.vertex_count());
+}
+
 /// The same shape with another scalar: `tool.template cast<Other>()`.
 template <class Tool, class Other>
 using ToolCast = decltype(std::declval<const Tool&>().template cast<Other>());
