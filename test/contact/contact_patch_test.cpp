@@ -74,7 +74,8 @@ Found find(const Tool& tool, const Mesh& mesh, int triangle, const feeler::Pose<
       (axes.transpose() * (mesh.corners(triangle).colwise() - pose.translation)).colwise() + reference;
   const auto closest = feeler::separation(tool, corners, {}, 1e-8);
   const feeler::FeatureIncidence incidence = feeler::incidence_of(tool);
-  ContactPatch<Tool, double> patch(tool, incidence, mesh, axes, reference, band, assumes_valleys);
+  feeler::VertexSet near(tool.vertex_count());
+  ContactPatch<Tool, double> patch(tool, incidence, mesh, axes, reference, band, assumes_valleys, near);
   Found found;
   found.has_rows = patch.find(triangle, corners, closest, keep_ghost, found.rows);
   found.distance = closest.distance;

@@ -51,7 +51,8 @@ BOOST_AUTO_TEST_CASE(a_line_over_a_ridge_may_rest_on_either_slope_or_on_the_edge
   const auto mesh = roof(1);
   const feeler::Segment<double> tool(Vector(-0.03, 0, 0), Vector(0.03, 0, 0));
   const Pose<double> pose{{0, 0.01, 1e-6}, Eigen::Quaterniond::Identity()};
-  LocalSearch<feeler::Segment<double>, double> search(tool, mesh, pose, 1e-3);
+  feeler::VertexSet near(tool.vertex_count());
+  LocalSearch<feeler::Segment<double>, double> search(tool, mesh, pose, 1e-3, near);
   RegionCandidates region;
   search.find(feeler::vertex_on_triangle<double>(0, 1, mesh.normal(1)), region);
   BOOST_TEST(region.dropped == 0);
@@ -64,8 +65,8 @@ BOOST_AUTO_TEST_CASE(a_line_over_a_ridge_may_rest_on_either_slope_or_on_the_edge
 BOOST_AUTO_TEST_CASE(a_valley_is_one_piece_of_both_its_planes) {
   const auto mesh = roof(-1);
   const feeler::Segment<double> tool(Vector(0, 0, 0.001), Vector(0, 0, 0.03));
-  LocalSearch<feeler::Segment<double>, double> search(tool, mesh,
-                                                      {{0, 0.01, 0}, Eigen::Quaterniond::Identity()}, 1e-3);
+  feeler::VertexSet near(tool.vertex_count());
+  LocalSearch<feeler::Segment<double>, double> search(tool, mesh, {{0, 0.01, 0}, Eigen::Quaterniond::Identity()}, 1e-3, near);
   RegionCandidates region;
   search.find(feeler::vertex_on_triangle<double>(0, 1, mesh.normal(1)), region);
   BOOST_TEST(count(region, FeaturePair::vertex_face) == 1);
@@ -75,8 +76,8 @@ BOOST_AUTO_TEST_CASE(a_valley_is_one_piece_of_both_its_planes) {
 BOOST_AUTO_TEST_CASE(from_behind_a_valley_is_a_ridge) {
   const auto mesh = roof(-1);
   const feeler::Segment<double> tool(Vector(-0.03, 0, 0), Vector(0.03, 0, 0));
-  LocalSearch<feeler::Segment<double>, double> search(
-      tool, mesh, {{0, 0.01, -1e-6}, Eigen::Quaterniond::Identity()}, 1e-3);
+  feeler::VertexSet near(tool.vertex_count());
+  LocalSearch<feeler::Segment<double>, double> search(tool, mesh, {{0, 0.01, -1e-6}, Eigen::Quaterniond::Identity()}, 1e-3, near);
   RegionCandidates region;
   search.find(feeler::vertex_on_triangle<double>(0, 1, Vector(-mesh.normal(1))), region);
   BOOST_TEST(count(region, FeaturePair::vertex_face) == 2);
@@ -88,7 +89,8 @@ BOOST_AUTO_TEST_CASE(a_room_is_one_piece_of_all_walls_in_reach) {
   const auto scene = feeler::scenes::cavity(1e-3);
   const feeler::TriangleMesh<double> mesh(scene.vertices, scene.triangles);
   const feeler::Box<double> tool(Vector::Constant(0.01));
-  LocalSearch<feeler::Box<double>, double> search(tool, mesh, {}, 1e-3);
+  feeler::VertexSet near(tool.vertex_count());
+  LocalSearch<feeler::Box<double>, double> search(tool, mesh, {}, 1e-3, near);
   for (int t = 0; t < mesh.triangle_count(); ++t) {
     RegionCandidates region;
     search.find(feeler::vertex_on_triangle<double>(3, t, Vector(-mesh.normal(t))), region);  // from inside

@@ -147,7 +147,8 @@ BOOST_AUTO_TEST_CASE(rows_of_a_round_tool_predict_its_separation_to_third_order)
       const feeler::TriangleMesh<double> mesh(vertices, feeler::Triangles{{0, 1, 2}});
       const auto closest = feeler::gjk(tool, corners, {}, 1e-8);
       const feeler::FeatureIncidence incidence = feeler::incidence_of(tool);
-      feeler::ContactPatch<Tool, double> patch(tool, incidence, mesh, Eigen::Matrix3d::Identity(), Vector::Zero(), 1e-4, false);
+      feeler::VertexSet near(tool.vertex_count());
+      feeler::ContactPatch<Tool, double> patch(tool, incidence, mesh, Eigen::Matrix3d::Identity(), Vector::Zero(), 1e-4, false, near);
       typename feeler::ContactPatch<Tool, double>::Rows rows;
       BOOST_TEST_REQUIRE(patch.find(0, corners, closest, true, rows));
       const auto row = *std::min_element(rows.begin(), rows.end(), [](const auto& a, const auto& b) { return a.gap < b.gap; });

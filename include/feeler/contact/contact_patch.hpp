@@ -2,7 +2,6 @@
 #pragma once
 
 #include <algorithm>
-#include <bitset>
 #include <cmath>
 #include <limits>
 
@@ -12,6 +11,7 @@
 #include "feeler/contact/patch_triangle.hpp"
 #include "feeler/contact/surface_around.hpp"
 #include "feeler/contact/swept_contact_row.hpp"
+#include "feeler/contact/vertex_set.hpp"
 #include "feeler/contact/wall_rim.hpp"
 #include "feeler/core/feature_incidence.hpp"
 #include "feeler/core/fixed_vector.hpp"
@@ -52,8 +52,9 @@ class ContactPatch {
   /// @param reference        reference point in the tool frame [m]
   /// @param band             height above the separating plane up to which features count, where their gap is at most a quarter of it [m]
   /// @param assumes_valleys  let the planes of valleys hold the tool before it is over them
+  /// @param near             is filled with the tool vertices in the band; made for at least as many as the tool has
   ContactPatch(const Tool& tool, const FeatureIncidence& incidence, const TriangleMesh<MeshScalar>& mesh,
-               const Matrix3<Scalar>& world_from_tool, const Vector& reference, Scalar band, bool assumes_valleys) noexcept
+               const Matrix3<Scalar>& world_from_tool, const Vector& reference, Scalar band, bool assumes_valleys, VertexSet& near) noexcept
       : tool_(tool),
         incidence_(incidence),
         world_from_tool_(world_from_tool),
@@ -62,7 +63,8 @@ class ContactPatch {
         seam_(band / 100000),
         assumes_valleys_(assumes_valleys),
         maker_(tool, world_from_tool_, reference, seam_),
-        surface_(mesh, world_from_tool_, seam_) {}
+        surface_(mesh, world_from_tool_, seam_),
+        near_(near) {}
   ContactPatch(const ContactPatch&) = delete;
   ContactPatch& operator=(const ContactPatch&) = delete;
 
@@ -139,7 +141,6 @@ class ContactPatch {
   }
 
  private:
-  static constexpr int near_capacity = 256;  // all vertices that a tool may have: one end of a cylinder has 128
   static constexpr Scalar least_cosine = PatchTriangle<Scalar>::least_cosine, plane_tolerance = SurfaceAround<Scalar, MeshScalar>::tolerance;
 
   static std::size_t index(int i) noexcept { return std::size_t(i); }
@@ -153,15 +154,11 @@ class ContactPatch {
   void gather_near_vertices(const ClosestPoints<Scalar>& closest) noexcept {
     const int lowest = closest.features.size > 0 ? closest.features.tool_vertices[0] : tool_.support(Vector(-normal_));
     const Scalar limit = normal_.dot(tool_.vertex(lowest)) + band_;
-    is_near_.reset();
-    const auto reach = [this](int vertex) {
-      if (near_.push_back(vertex)) is_near_.set(index(vertex));
-    };
-    reach(lowest);
+    near_.add(lowest);
     for (int i = 0; i < near_.size(); ++i) {
       for (const int e : incidence_.vertex_edges(near_[i])) {
         for (const int vertex : incidence_.edge_vertices(e)) {
-          if (!is_near_[index(vertex)] && normal_.dot(tool_.vertex(vertex)) <= limit) reach(vertex);
+          if (!near_.contains(vertex) && normal_.dot(tool_.vertex(vertex)) <= limit) near_.add(vertex);
         }
       }
     }
@@ -170,10 +167,15 @@ class ContactPatch {
   void add_vertices_on_face(Rows& rows) noexcept {
     if (!triangle_.has_face() || !triangle_.faces_tool()) return;
     if (tool_.vertex_count() > most_outer_rows && near_.size() > most_outer_rows) return add_outer_vertices_on_face(rows);
-    for (const int vertex : near_) add_vertex_on_face(vertex, rows);
+    visit_vertices_on_face([&rows](const Row& row) { rows.push_back(row); });
   }
-  template <int capacity>
-  void add_vertex_on_face(int tool_vertex, FixedVector<Row, capacity>& rows) const noexcept {
+  /// Calls `visit(row)` for each near vertex over the face.
+  template <class Visit>
+  void visit_vertices_on_face(const Visit& visit) const noexcept {
+    for (const int vertex : near_) visit_vertex_on_face(vertex, visit);
+  }
+  template <class Visit>
+  void visit_vertex_on_face(int tool_vertex, const Visit& visit) const noexcept {
     const Vector vertex = tool_.vertex(tool_vertex);
     const Scalar gap = gap_above_face(vertex);
     if (std::abs(gap) > largest_gap_) return;
@@ -184,7 +186,7 @@ class ContactPatch {
       // Beyond a valley what is free is above both faces, and the step may lead back over this one.
       else if (!(inside >= -band_) || !surface_.rises_across(k, triangle_.outward())) return;
     }
-    rows.push_back(maker_.row_of(FeaturePair::vertex_face, triangle_.outward(), vertex, gap, room));
+    visit(maker_.row_of(FeaturePair::vertex_face, triangle_.outward(), vertex, gap, room));
   }
   /// Gap of a tool vertex above the triangle's plane, on the side of the tool [m].
   Scalar gap_above_face(const Vector& vertex) const noexcept { return maker_.on_surface(triangle_.height_of(vertex)); }
@@ -192,9 +194,7 @@ class ContactPatch {
   /// Of many vertices, as of a round end, those that hold it up.
   [[gnu::flatten, gnu::noinline]]
   void add_outer_vertices_on_face(Rows& rows) noexcept {
-    FixedVector<Row, near_capacity> all;
-    for (const int vertex : near_) add_vertex_on_face(vertex, all);
-    take_outer_rows(all, band_ / 16, rows);
+    take_outer_rows<Row>([this](const auto& visit) { visit_vertices_on_face(visit); }, band_ / 16, rows);
   }
 
   /// The triangle's own plane, where the lowest tool vertex is beside it, near, and every edge between them is a valley's.
@@ -231,7 +231,7 @@ class ContactPatch {
       for (const int f : incidence_.vertex_faces(vertex)) {
         const auto all = incidence_.face_vertices(f);
         if (all.front() != vertex) continue;  // each face once
-        if (std::all_of(all.begin(), all.end(), [this](int v) { return is_near_[index(v)]; })) visit(tool_.face(f));
+        if (std::all_of(all.begin(), all.end(), [this](int v) { return near_.contains(v); })) visit(tool_.face(f));
       }
     }
   }
@@ -276,7 +276,7 @@ class ContactPatch {
     for (const int vertex : near_) {
       for (const int e : incidence_.vertex_edges(vertex)) {
         const auto& ends = incidence_.edge_vertices(e);
-        if (ends[0] != vertex || !is_near_[index(ends[1])]) continue;  // each edge once
+        if (ends[0] != vertex || !near_.contains(ends[1])) continue;  // each edge once
         const Vector tool_start = tool_.vertex(vertex), tool = tool_.vertex(ends[1]) - tool_start;
         for (const ObjectEdge& object : object_edges) add_edge_pair(tool_start, tool, object, rows);
       }
@@ -380,8 +380,7 @@ class ContactPatch {
 
   PatchTriangle<Scalar> triangle_;
   Vector normal_;  // of the contact
-  FixedVector<int, near_capacity> near_;
-  std::bitset<256> is_near_;
+  VertexSet& near_;
 };
 
 }  // namespace feeler

@@ -5,10 +5,12 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <span>
 
 #include "feeler/contact/candidate_constraint.hpp"
 #include "feeler/contact/contact_row.hpp"
 #include "feeler/contact/first_contacts.hpp"
+#include "feeler/contact/vertex_set.hpp"
 #include "feeler/core/fixed_vector.hpp"
 #include "feeler/core/scalar.hpp"
 #include "feeler/object/triangle_mesh.hpp"
@@ -50,8 +52,9 @@ class LocalSearch {
   static constexpr int ring_capacity = 48;
 
   /// @param reach  how far apart features that will meet within the tick may be now [m]
-  LocalSearch(const Tool& tool, const TriangleMesh<MeshScalar>& mesh, const Pose<Scalar>& pose, Scalar reach) noexcept
-      : tool_(tool), mesh_(mesh), pose_(pose), axes_(pose.rotation.toRotationMatrix()), reach_(reach) {}
+  /// @param near   is filled with neighbours on the tool; made for at least as many as the tool has vertices
+  LocalSearch(const Tool& tool, const TriangleMesh<MeshScalar>& mesh, const Pose<Scalar>& pose, Scalar reach, VertexSet& near) noexcept
+      : tool_(tool), mesh_(mesh), pose_(pose), axes_(pose.rotation.toRotationMatrix()), reach_(reach), near_(near) {}
 
   /// The triangles that share a corner with one, itself first.
   static FixedVector<int, ring_capacity> ring(const TriangleMesh<MeshScalar>& mesh, int triangle) noexcept {
@@ -118,18 +121,20 @@ class LocalSearch {
   }
 
   void gather_tool_neighbours(const FirstContact<Scalar>& contact) noexcept {
-    std::array<bool, 256> is_own{};
-    is_near_.fill(false);
-    for (int i = 0; i < contact.features.size; ++i) is_own[index(contact.features.tool_vertices[index(i)])] = true;
-    is_near_ = is_own;
+    near_.clear();
+    for (int i = 0; i < contact.features.size; ++i) near_.add(contact.features.tool_vertices[index(i)]);
+    const std::span<const int> own(near_.begin(), std::size_t(near_.size()));
+    const auto is_own = [own](int vertex) { return std::find(own.begin(), own.end(), vertex) != own.end(); };
     for (int e = 0; e < tool_.edge_count(); ++e) {
       const ToolEdge edge = tool_.edge(e);
-      if (is_own[index(edge.start)] || is_own[index(edge.end)]) is_near_[index(edge.start)] = is_near_[index(edge.end)] = true;
+      if (!is_own(edge.start) && !is_own(edge.end)) continue;
+      near_.add(edge.start);
+      near_.add(edge.end);
     }
     for (int f = 0; f < tool_.face_count(); ++f) {
       const auto face = tool_.face(f);
-      if (std::none_of(face.vertices.begin(), face.vertices.end(), [&](int v) { return is_own[index(v)]; })) continue;
-      for (const int v : face.vertices) is_near_[index(v)] = true;
+      if (std::none_of(face.vertices.begin(), face.vertices.end(), is_own)) continue;
+      for (const int v : face.vertices) near_.add(v);
     }
   }
 
@@ -172,7 +177,7 @@ class LocalSearch {
 
   bool is_above(const Plane& plane) const noexcept {
     for (int v = 0; v < tool_.vertex_count(); ++v) {
-      if (is_near_[index(v)] && plane.normal.dot(tool_vertex(v) - plane.point) < -reach_) return false;
+      if (near_.contains(v) && plane.normal.dot(tool_vertex(v) - plane.point) < -reach_) return false;
     }
     return true;
   }
@@ -229,7 +234,7 @@ class LocalSearch {
   /// Every near tool vertex above a plane; those past a ridge where it ends only if the candidate is the plane's own.
   void add_plane(const Plane& plane, bool is_own, Candidate& candidate, RegionCandidates& region) const noexcept {
     for (int v = 0; v < tool_.vertex_count(); ++v) {
-      if (!is_near_[index(v)] || (!is_own && is_past_ridge(plane, tool_vertex(v)))) continue;
+      if (!near_.contains(v) || (!is_own && is_past_ridge(plane, tool_vertex(v)))) continue;
       if (!candidate.constraints.push_back({FeaturePair::vertex_face, v, plane.triangle, 0, is_behind_})) ++region.dropped;
     }
   }
@@ -251,7 +256,7 @@ class LocalSearch {
   void add_edges(RegionCandidates& region) noexcept {
     for (int e = 0; e < tool_.edge_count(); ++e) {
       const ToolEdge edge = tool_.edge(e);
-      if (!is_near_[index(edge.start)] || !is_near_[index(edge.end)]) continue;
+      if (!near_.contains(edge.start) || !near_.contains(edge.end)) continue;
       for (int i = 0; i < ring_.size(); ++i) {
         for (int k = 0; k < 3; ++k) {
           const int other = mesh_.topology().neighbour(ring_[i], k);
@@ -290,7 +295,7 @@ class LocalSearch {
         if (std::find(known.begin(), known.end(), vertex) != known.end() || !known.push_back(vertex)) continue;
         for (int f = 0; f < tool_.face_count(); ++f) {
           const auto face = tool_.face(f);
-          if (std::none_of(face.vertices.begin(), face.vertices.end(), [&](int v) { return is_near_[index(v)]; })) continue;
+          if (std::none_of(face.vertices.begin(), face.vertices.end(), [&](int v) { return near_.contains(v); })) continue;
           const Scalar height = (axes_ * face.normal).dot(corner(ring_[i], k) - tool_vertex(face.vertices[0]));
           if (std::abs(height) > reach_) continue;
           Candidate candidate;
@@ -314,7 +319,7 @@ class LocalSearch {
   Scalar reach_;
   FixedVector<int, ring_capacity> ring_;
   bool is_behind_ = false;
-  std::array<bool, 256> is_near_{};
+  VertexSet& near_;
   FixedVector<Plane, plane_capacity> planes_;
 };
 

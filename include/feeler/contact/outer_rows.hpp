@@ -2,8 +2,7 @@
 #pragma once
 
 #include <algorithm>
-#include <bitset>
-#include <cstddef>
+#include <limits>
 
 #include "feeler/core/fixed_vector.hpp"
 #include "feeler/core/scalar.hpp"
@@ -17,36 +16,63 @@ inline constexpr int most_outer_rows = 16;
 /// few.
 ///
 /// A round end of 128 vertices so stands on a polygon of 16, and tips where it would.
-/// @param rise  of the plane that tells who would be the lowest, across the rows [m]
+/// @param each_row  calls its argument with each of the rows, in the same order every time
+/// @param rise      of the plane that tells who would be the lowest, across the rows [m]
 /// @cost O(rows)
-template <class Row, int capacity, int most>
+template <class Row, class EachRow, int most>
 [[gnu::flatten]]
-void take_outer_rows(const FixedVector<Row, capacity>& rows, const typename Row::Scalar& rise, FixedVector<Row, most>& taken) noexcept {
+void take_outer_rows(const EachRow& each_row, const typename Row::Scalar& rise, FixedVector<Row, most>& taken) noexcept {
   using Scalar = typename Row::Scalar;
   using Vector = Vector3<Scalar>;
-  if (rows.size() <= most_outer_rows) {
-    for (const Row& row : rows) taken.push_back(row);
+  FixedVector<Row, most_outer_rows> few;
+  int count = 0;
+  Scalar extent(0);
+  each_row([&](const Row& row) {
+    few.push_back(row);
+    extent = (std::max)(extent, (row.arm - few[0].arm).norm());
+    ++count;
+  });
+  if (count <= most_outer_rows) {
+    for (const Row& row : few) taken.push_back(row);
     return;
   }
-  std::bitset<std::size_t(capacity)> is_taken;
-  const auto take_lowest = [&](const Vector& tilt) {
-    const auto height = [&tilt](const Row& row) { return row.gap - tilt.dot(row.arm); };
-    const Row* const lowest = std::min_element(rows.begin(), rows.end(), [&height](const Row& a, const Row& b) { return height(a) < height(b); });
-    const auto place = std::size_t(lowest - rows.begin());
-    if (!is_taken[place]) taken.push_back(*lowest);
-    is_taken.set(place);
+  struct Side {
+    Vector tilt = Vector::Zero();
+    Scalar height = (std::numeric_limits<Scalar>::max)();
+    int place = 0;
+    Row lowest{};
   };
-  take_lowest(Vector::Zero());
-  Scalar extent(0);
-  for (const Row& row : rows) extent = (std::max)(extent, (row.arm - rows[0].arm).norm());
   static_assert(most_outer_rows == 16);
   constexpr Scalar cosine = Scalar(0.923879532511286756128L), sine = Scalar(0.382683432365089771728L);  // of a sixteenth of a turn
-  Vector tilt = rows[0].normal.unitOrthogonal() * (rise / extent), across = rows[0].normal.cross(tilt);
-  for (int side = 0; side < most_outer_rows; ++side) {
-    take_lowest(tilt);
+  FixedVector<Side, most_outer_rows + 1> sides;
+  sides.push_back({});
+  Vector tilt = few[0].normal.unitOrthogonal() * (rise / extent), across = few[0].normal.cross(tilt);
+  for (int i = 0; i < most_outer_rows; ++i) {
+    sides.push_back({.tilt = tilt});
     const Vector turned = cosine * tilt + sine * across;
     across = cosine * across - sine * tilt;
     tilt = turned;
+  }
+  int place = 0;
+  each_row([&](const Row& row) {
+    for (Side& side : sides) {
+      const Scalar height = row.gap - side.tilt.dot(row.arm);
+      if (!(height < side.height)) continue;
+      side.height = height;
+      side.place = place;
+    }
+    ++place;
+  });
+  place = 0;
+  each_row([&](const Row& row) {
+    for (Side& side : sides) {
+      if (side.place == place) side.lowest = row;
+    }
+    ++place;
+  });
+  for (int i = 0; i < sides.size(); ++i) {
+    const auto is_same = [&](const Side& other) { return other.place == sides[i].place; };
+    if (std::none_of(sides.begin(), sides.begin() + i, is_same)) taken.push_back(sides[i].lowest);
   }
 }
 

@@ -31,6 +31,8 @@ class CandidateContactsFollower {
   using Scalar = typename Scene::Scalar;
   using MeshScalar = typename Scene::MeshScalar;
 
+  explicit CandidateContactsFollower(const Scene& scene) : search_(scene) {}
+
   const Pose<Scalar>& pose() const noexcept { return pose_; }
   /// Combinations optimised in the last tick.
   int combinations() const noexcept { return search_.combinations(); }

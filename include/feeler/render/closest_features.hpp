@@ -27,6 +27,8 @@ class ClosestFeaturesFollower {
   using MeshScalar = typename Scene::MeshScalar;
   using Piece = typename Scene::Piece;
 
+  explicit ClosestFeaturesFollower(const Scene& scene) : linearisation_(scene) {}
+
   const Pose<Scalar>& pose() const noexcept { return pose_; }
   /// Of the last tick: where the hand was, and the last step that was solved for.
   const Pose<Scalar>& target() const noexcept { return target_; }

@@ -62,6 +62,8 @@ class CombinationSearch {
     Scalar trust;         ///< longest motion proposed to the certificate [m]
   };
 
+  explicit CombinationSearch(const Scene& scene) : near_vertices_(scene.tool().vertex_count()) {}
+
   /// Of the last search, the best first.
   const auto& solutions() const noexcept { return solutions_; }
   /// Combinations optimised since the tick began.
@@ -79,7 +81,7 @@ class CombinationSearch {
   /// @param tick  learns how many rows an optimisation had at most
   void solve(const Scene& scene, const Regions& regions, const Reach& reach, Tick<MeshScalar>& tick) noexcept {
     reach_ = reach;
-    LocalSearch<Tool, MeshScalar> search(scene.tool(), scene.object(), scene.tool_frame(reach.pose), reach.distance);
+    LocalSearch<Tool, MeshScalar> search(scene.tool(), scene.object(), scene.tool_frame(reach.pose), reach.distance, near_vertices_);
     for (int i = 0; i < regions.size(); ++i) {
       search.find(regions[i], found_[index(i)]);
       dropped_ += found_[index(i)].dropped;
@@ -235,6 +237,7 @@ class CombinationSearch {
   QpSolution<Scalar> qp_solution_;
   int combinations_ = 0;
   int dropped_ = 0;
+  VertexSet near_vertices_;  // of the region at hand
 };
 
 }  // namespace feeler

@@ -10,14 +10,14 @@
 
 namespace feeler {
 
-/// A contact method names a class template `Follower<Tool, Solver>` whose objects lead the graphic pose after the haptic pose.
+/// A contact method names a class template `Follower<Tool, Solver>` whose objects, made for a scene, lead the graphic pose after the haptic pose.
 ///
 /// `reset(scene, pose)` starts from a pose that is free of collision. `follow(scene, target, tick)` moves on towards the target, records the
 /// way in `tick.path` and the effort in `tick.iterations`, `rows` and `work`, and returns the status of the tick; `pose()` is where it
 /// arrived. `report(scene, tick)` lists what holds the tool there. All poses are those of the reference point.
 template <class Method, class Tool, class Solver>
 concept ContactMethod =
-    RigidTool<Tool> && QpSolver<Solver> &&
+    RigidTool<Tool> && QpSolver<Solver> && std::constructible_from<typename Method::template Follower<Tool, Solver>, const RenderedScene<Tool>&> &&
     requires(typename Method::template Follower<Tool, Solver>& follower, const RenderedScene<Tool>& scene,
              const Pose<typename RenderedScene<Tool>::Scalar>& pose, Tick<typename Tool::Scalar>& tick) {
       { follower.reset(scene, pose) } noexcept;

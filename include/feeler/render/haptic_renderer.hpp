@@ -94,7 +94,7 @@ class HapticRenderer {
 template <RigidTool ToolType, QpSolver Solver, ContactMethod<ToolType, Solver> Method>
 HapticRenderer<ToolType, Solver, Method>::HapticRenderer(const TriangleMesh<Scalar>& object, const Tool& tool,
                                                          const Settings<Scalar>& settings)
-    : scene_(object, tool, settings), interior_(object) {}
+    : scene_(object, tool, settings), interior_(object), follower_(scene_) {}
 
 template <RigidTool ToolType, QpSolver Solver, ContactMethod<ToolType, Solver> Method>
 TickStatus HapticRenderer<ToolType, Solver, Method>::reset(const Pose<Scalar>& pose) noexcept {

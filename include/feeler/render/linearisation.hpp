@@ -41,6 +41,8 @@ class Linearisation {
   using Pairs = WorkingSet<Scalar, 256>;
   using Problem = StepProblem<Solver, 256, Row>;
 
+  explicit Linearisation(const Scene& scene) : near_vertices_(largest_vertex_count(scene)) {}
+
   void clear() noexcept {
     pairs_.clear();
     problem_.forget();
@@ -326,7 +328,7 @@ class Linearisation {
     const Matrix3<Scalar> corners = scene.in_tool(pair.corners_world, pose_, axes_);
     const auto closest = query(scene, pair, corners, axes_, is_at_start_, tick);
     ContactPatch<Piece, MeshScalar> patch(scene.piece(pair.piece), scene.incidence(pair.piece), scene.object(), axes_, scene.reference(),
-                                          scene.trust_radius() / 8, assumes_valleys_);
+                                          scene.trust_radius() / 8, assumes_valleys_, near_vertices_);
     pair.state = patch.find(pair.triangle, corners, closest, pair.keeps_ghost, patch_rows_) ? PairState::repeats : PairState::ghost;
     pair.is_filler = patch.is_filler();
     if (is_at_start_) pair.is_ghost = pair.state == PairState::ghost;
@@ -425,6 +427,12 @@ class Linearisation {
     int piece, wall;
   };
 
+  static int largest_vertex_count(const Scene& scene) noexcept {
+    int largest = 0;
+    for (int i = 0; i < scene.piece_count(); ++i) largest = (std::max)(largest, scene.piece(i).vertex_count());
+    return largest;
+  }
+
   Pairs pairs_;
   Problem problem_;
   FixedVector<OnWall, 64> walls_;      // that pieces touch where the rows are
@@ -434,6 +442,7 @@ class Linearisation {
   FixedVector<Row, 6> stops_;          // of the last step, where it began
   Twist<Scalar> stopped_;              // that step
   PatchRows<Scalar, Row> patch_rows_;  // of the pair at hand
+  VertexSet near_vertices_;            // likewise
   Pose<Scalar> start_;                 // where the motion starts
   Pose<Scalar> pose_;                  // where the rows are
   Matrix3<Scalar> axes_;               // there

@@ -17,12 +17,12 @@
 
 namespace feeler {
 
-/// A convex polyhedron with up to 256 vertices. Coordinates are in the tool frame [m].
+/// A convex polyhedron. Coordinates are in the tool frame [m].
 template <RealScalar Scalar_>
 class ConvexPolytope {
  public:
   using Scalar = Scalar_;
-  static constexpr int max_vertex_count = SupportBlocks<Scalar>::max_count;
+  static constexpr int max_vertex_count = 32767;  // what a `WitnessFeatures` can name
 
   /// The convex hull of points, one a row [m]; any number of them, in any order, inside points and duplicates
   /// included.
@@ -30,7 +30,7 @@ class ConvexPolytope {
   /// Vertices are bit-identical to points given. Points less than 4 eps × size outside a face are dropped,
   /// faces coplanar to that are merged; size is the diagonal of the bounding box plus the largest coordinate,
   /// where the rounding of the points comes from. Refuses fewer than 4 points, points not finite, all equal,
-  /// on a line or in a plane, and hulls of more than 256 vertices.
+  /// on a line or in a plane, and hulls of more than `max_vertex_count` vertices.
   /// @cost  allocates; milliseconds for thousands of points
   static ConvexPolytope hull_of(const Points<Scalar>& points) { return try_hull_of(points).value(); }
   /// The same, or the reason against it.
@@ -65,9 +65,9 @@ class ConvexPolytope {
 
   int vertex_count() const noexcept { return vertices_.count(); }
   Vector3<Scalar> vertex(int i) const noexcept { return vertices_[i]; }
-  /// @cost  all dot products with SIMD: tens of nanoseconds
+  /// @cost  tens of nanoseconds; of a thousand vertices some hundred
   int support(const Vector3<Scalar>& direction) const noexcept { return vertices_.support(direction); }
-  /// @cost  half of that of `support`
+  /// @cost  no more than `support`
   Scalar highest(const Vector3<Scalar>& direction) const noexcept { return vertices_.highest(direction); }
 
   /// Index of a vertex farthest along a direction, by climbing over edges from a vertex: on a convex hull who has no higher neighbour is highest.
@@ -275,7 +275,13 @@ class ConvexPolytope {
       neighbours[std::size_t(edge.start)].push_back(edge.end);
       neighbours[std::size_t(edge.end)].push_back(edge.start);
     }
-    // Of shapes as fine as their rounding a face may have no outline, and edges are missing.
+    // Of shapes as fine as their rounding a face may have no outline, and edges are missing. Where edges are much shorter than the shape, rounding
+    // hides on which side it is higher.
+    constexpr Scalar shortest = Scalar(1) / 300;  // edge, to the largest coordinate
+    Scalar size(0);
+    for (int i = 0; i < vertex_count(); ++i) size = (std::max)(size, vertex(i).cwiseAbs().maxCoeff());
+    const auto is_too_short = [&](const ToolEdge& edge) { return !((vertex(edge.end) - vertex(edge.start)).norm() > shortest * size); };
+    if (std::any_of(edges_.begin(), edges_.end(), is_too_short)) return;
     if (std::any_of(neighbours.begin(), neighbours.end(), [](const std::vector<int>& of_vertex) { return of_vertex.size() < 3; })) return;
     neighbour_begin_.push_back(0);
     for (const std::vector<int>& of_vertex : neighbours) {

@@ -38,7 +38,7 @@ void check_round_solid(const char* name, Scalar radius, Scalar height, int facet
     refuse(std::string(name) + ": the radius or the height is not a positive length; give two finite lengths");
   if (facets < 3 || facets > most_facets) {
     refuse(std::string(name) + ": " + std::to_string(facets) + " facets; give 3 to " + std::to_string(most_facets) +
-           ", as a polytope may have 256 vertices");
+           ", as a polytope has no more vertices");
   }
 }
 
@@ -60,7 +60,7 @@ void write_polygon(Scalar radius, Scalar z, int facets, Facets side, int first_r
 ///
 /// Its side is off by at most `facet_error(radius, facets, side)`: with 32 facets 0.5 % of the radius, with 128 0.03 %. Its ends are exact.
 /// Facets can be felt when the tool rolls; a shaft with round ends is exact as a `Capsule`.
-/// @param facets  3 to 128
+/// @param facets  3 to 16383
 template <RealScalar Scalar>
 ConvexPolytope<Scalar> cylinder(Scalar radius, Scalar height, int facets = 32, Facets side = Facets::inscribed) {
   detail::check_round_solid("cylinder", radius, height, facets, ConvexPolytope<Scalar>::max_vertex_count / 2);
@@ -73,7 +73,7 @@ ConvexPolytope<Scalar> cylinder(Scalar radius, Scalar height, int facets = 32, F
 /// A cone about the z axis of the tool frame, its tip at the origin and its round base at −height [m], as a pyramid with `facets` sides.
 ///
 /// Across its axis it is off by at most `facet_error(radius, facets, side)`, at its base; the tip and the base's plane are exact.
-/// @param facets  3 to 255
+/// @param facets  3 to 32766
 template <RealScalar Scalar>
 ConvexPolytope<Scalar> cone(Scalar radius, Scalar height, int facets = 32, Facets side = Facets::inscribed) {
   detail::check_round_solid("cone", radius, height, facets, ConvexPolytope<Scalar>::max_vertex_count - 1);
