@@ -1,5 +1,27 @@
-# Compiles and runs every whole program in the documentation: the ```cpp blocks of README.md and docs/*.md that have a main. A
+# Compiles and runs every program in the documentation: docs/examples/*.cpp, and the ```cpp blocks of README.md and docs/*.md that have a main. A
 # line "// prints: text" in one says what it must print.
+function(feeler_add_documented_program program source)
+  file(STRINGS ${source} device_headers REGEX "#include <feeler/device/")
+  if(device_headers AND NOT TARGET feeler::device)
+    return()
+  endif()
+  add_executable(${program} ${source})
+  target_link_libraries(${program} PRIVATE feeler_development feeler::feeler $<TARGET_NAME_IF_EXISTS:feeler::device>)
+  target_compile_options(${program} PRIVATE $<IF:$<CONFIG:Release>,-O1,-O0>)  # they are all the same code, and run for a moment
+  add_test(NAME package_${program}_runs COMMAND ${program})
+  file(STRINGS ${source} expected REGEX "// prints: ")
+  if(expected MATCHES "// prints: ([^\n;]*)")
+    string(REGEX REPLACE "([][.+*?^$()|])" "\\\\\\1" expected "${CMAKE_MATCH_1}")
+    set_tests_properties(package_${program}_runs PROPERTIES PASS_REGULAR_EXPRESSION "${expected}")
+  endif()
+endfunction()
+
+file(GLOB examples CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/docs/examples/*.cpp)
+foreach(example IN LISTS examples)
+  cmake_path(GET example STEM name)
+  feeler_add_documented_program(example-${name} ${example})
+endforeach()
+
 file(GLOB pages CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/README.md ${PROJECT_SOURCE_DIR}/docs/*.md)
 foreach(page IN LISTS pages)
   set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${page})
@@ -22,13 +44,6 @@ foreach(page IN LISTS pages)
     math(EXPR number "${number} + 1")
     set(program snippet-${name}-${number})
     file(CONFIGURE OUTPUT ${CMAKE_CURRENT_BINARY_DIR}/${program}.cpp CONTENT "${snippet}" @ONLY)
-    add_executable(${program} ${CMAKE_CURRENT_BINARY_DIR}/${program}.cpp)
-    target_link_libraries(${program} PRIVATE feeler_development feeler::feeler $<TARGET_NAME_IF_EXISTS:feeler::device>)
-    target_compile_options(${program} PRIVATE $<IF:$<CONFIG:Release>,-O1,-O0>)  # they are all the same code, and run for a moment
-    add_test(NAME package_${program}_runs COMMAND ${program})
-    if(snippet MATCHES "// prints: ([^\n]*)")
-      string(REGEX REPLACE "([][.+*?^$()|])" "\\\\\\1" expected "${CMAKE_MATCH_1}")
-      set_tests_properties(package_${program}_runs PROPERTIES PASS_REGULAR_EXPRESSION "${expected}")
-    endif()
+    feeler_add_documented_program(${program} ${CMAKE_CURRENT_BINARY_DIR}/${program}.cpp)
   endwhile()
 endforeach()
