@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "feeler/contact/contact_recogniser.hpp"
+#include "feeler/recognition/contact_recogniser.hpp"
 #include "feeler/tool/box.hpp"
 #include "support/contact_scenes.hpp"
 

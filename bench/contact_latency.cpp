@@ -6,7 +6,7 @@
 #include <variant>
 #include <vector>
 
-#include "feeler/contact/contact_recogniser.hpp"
+#include "feeler/recognition/contact_recogniser.hpp"
 #include "scenes/cavity.hpp"
 #include "scenes/renderers.hpp"
 #include "scenes/steps.hpp"

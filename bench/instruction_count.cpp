@@ -9,12 +9,12 @@
 #include "feeler/feeler.hpp"
 #include "scenes/terrain.hpp"
 #ifdef FEELER_INCLUDES_OPTIONAL_PARTS
-#include "feeler/contact/contact_recogniser.hpp"
-#include "feeler/qp/interior_point.hpp"
-#include "feeler/qp/projected_gauss_seidel.hpp"
-#include "feeler/qp/textbook_active_set.hpp"
+#include "feeler/paper/candidate_contacts.hpp"
+#include "feeler/qp/reference/interior_point.hpp"
+#include "feeler/qp/reference/projected_gauss_seidel.hpp"
+#include "feeler/qp/reference/textbook_active_set.hpp"
 #include "feeler/qp/warm_start.hpp"
-#include "feeler/render/candidate_contacts.hpp"
+#include "feeler/recognition/contact_recogniser.hpp"
 #endif
 
 int main(int argc, char** argv) {

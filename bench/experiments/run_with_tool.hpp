@@ -5,9 +5,9 @@
 #include <cmath>
 
 #include "experiments/run.hpp"
-#include "feeler/contact/contact_recogniser.hpp"
 #include "feeler/feeler.hpp"
-#include "feeler/render/candidate_contacts.hpp"
+#include "feeler/paper/candidate_contacts.hpp"
+#include "feeler/recognition/contact_recogniser.hpp"
 #include "support/penetration_checker.hpp"
 #include "times.hpp"
 

@@ -1,5 +1,5 @@
 // The exact optimum in fractions, where CGAL is not installed.
-#include "feeler/qp/textbook_active_set.hpp"
+#include "feeler/qp/reference/textbook_active_set.hpp"
 #include "qp/exact_reference.hpp"
 #include "support/multiprecision.hpp"
 

@@ -6,9 +6,9 @@
 #include <string>
 
 #include "feeler/qp/dual_active_set.hpp"
-#include "feeler/qp/interior_point.hpp"
-#include "feeler/qp/projected_gauss_seidel.hpp"
-#include "feeler/qp/textbook_active_set.hpp"
+#include "feeler/qp/reference/interior_point.hpp"
+#include "feeler/qp/reference/projected_gauss_seidel.hpp"
+#include "feeler/qp/reference/textbook_active_set.hpp"
 #include "feeler/qp/warm_start.hpp"
 #ifdef FEELER_HAS_DAQP
 #include "feeler/adapter/daqp.hpp"

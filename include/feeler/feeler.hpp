@@ -1,17 +1,17 @@
 // Everything a renderer needs: object, tools, solver, contact methods and renderer. Includes only.
 #pragma once
 
-#include "feeler/contact/contact_recogniser.hpp"
 #include "feeler/core/result.hpp"
 #include "feeler/core/scalar.hpp"
 #include "feeler/core/status.hpp"
 #include "feeler/core/version.hpp"
 #include "feeler/object/mesh_assembly.hpp"
 #include "feeler/object/mesh_interior.hpp"
-#include "feeler/object/surface_features.hpp"
 #include "feeler/object/triangle_mesh.hpp"
+#include "feeler/paper/candidate_contacts.hpp"
 #include "feeler/qp/dual_active_set.hpp"
-#include "feeler/render/candidate_contacts.hpp"
+#include "feeler/recognition/contact_recogniser.hpp"
+#include "feeler/recognition/surface_features.hpp"
 #include "feeler/render/fold_detector.hpp"
 #include "feeler/render/free_pose_search.hpp"
 #include "feeler/render/haptic_renderer.hpp"

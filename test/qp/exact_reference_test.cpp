@@ -8,9 +8,9 @@
 #include <vector>
 
 #include "feeler/qp/dual_active_set.hpp"
-#include "feeler/qp/interior_point.hpp"
-#include "feeler/qp/projected_gauss_seidel.hpp"
-#include "feeler/qp/textbook_active_set.hpp"
+#include "feeler/qp/reference/interior_point.hpp"
+#include "feeler/qp/reference/projected_gauss_seidel.hpp"
+#include "feeler/qp/reference/textbook_active_set.hpp"
 #include "qp/judge.hpp"
 #include "qp/problem_families.hpp"
 

@@ -8,7 +8,7 @@
 #include <tuple>
 #include <utility>
 
-#include "feeler/qp/best_row.hpp"
+#include "feeler/qp/dual/best_row.hpp"
 #include "feeler/qp/dual_active_set.hpp"
 #include "support/qp_laws.hpp"
 

@@ -3,9 +3,9 @@
 
 #include <tuple>
 
-#include "feeler/qp/interior_point.hpp"
-#include "feeler/qp/projected_gauss_seidel.hpp"
-#include "feeler/qp/textbook_active_set.hpp"
+#include "feeler/qp/reference/interior_point.hpp"
+#include "feeler/qp/reference/projected_gauss_seidel.hpp"
+#include "feeler/qp/reference/textbook_active_set.hpp"
 #include "support/qp_laws.hpp"
 #include "support/qp_promises.hpp"
 

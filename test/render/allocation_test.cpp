@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <type_traits>
 
-#include "feeler/render/candidate_contacts.hpp"
+#include "feeler/paper/candidate_contacts.hpp"
 #include "feeler/render/wrench_derivative.hpp"
 #include "scenes/cavity.hpp"
 #include "scenes/spline.hpp"

@@ -7,7 +7,7 @@
 #include <string>
 #include <type_traits>
 
-#include "feeler/contact/contact_recogniser.hpp"
+#include "feeler/recognition/contact_recogniser.hpp"
 #include "feeler/render/wrench_derivative.hpp"
 #include "scenes/motions.hpp"
 #include "support/refusal.hpp"

@@ -6,9 +6,9 @@
 #include <algorithm>
 #include <random>
 
-#include "feeler/qp/inverse_hessian.hpp"
+#include "feeler/qp/dual/inverse_hessian.hpp"
+#include "feeler/qp/dual/six.hpp"
 #include "feeler/qp/problem.hpp"
-#include "feeler/qp/six.hpp"
 #include "support/random_geometry.hpp"
 
 namespace feeler_test {

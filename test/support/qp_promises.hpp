@@ -1,8 +1,8 @@
 // What each QP solver promises to the laws of qp_laws.hpp.
 #pragma once
 
-#include "feeler/qp/interior_point.hpp"
-#include "feeler/qp/projected_gauss_seidel.hpp"
+#include "feeler/qp/reference/interior_point.hpp"
+#include "feeler/qp/reference/projected_gauss_seidel.hpp"
 #include "support/qp_laws.hpp"
 
 namespace feeler_test {

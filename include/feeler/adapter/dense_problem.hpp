@@ -3,9 +3,9 @@
 
 #include <array>
 
-#include "feeler/qp/ldlt6.hpp"
-#include "feeler/qp/optimality.hpp"
 #include "feeler/qp/problem.hpp"
+#include "feeler/qp/reference/ldlt6.hpp"
+#include "feeler/qp/reference/optimality.hpp"
 #include "feeler/qp/solution.hpp"
 
 namespace feeler {

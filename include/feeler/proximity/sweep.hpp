@@ -18,9 +18,9 @@
 #include "feeler/proximity/motion.hpp"
 #include "feeler/proximity/passage.hpp"
 #include "feeler/proximity/plane_cache.hpp"
-#include "feeler/proximity/wall_planes.hpp"
 #include "feeler/proximity/traversal_order.hpp"
 #include "feeler/proximity/unpassed_triangles.hpp"
+#include "feeler/proximity/wall_planes.hpp"
 
 namespace feeler {
 

@@ -6,20 +6,20 @@
 #include <cstddef>
 
 #include "feeler/core/lanes.hpp"
-#include "feeler/qp/dual_tableau.hpp"
-#include "feeler/qp/fresh_look.hpp"
-#include "feeler/qp/held_minimum.hpp"
-#include "feeler/qp/inverse_hessian.hpp"
-#include "feeler/qp/operator_method.hpp"
+#include "feeler/qp/dual/dual_tableau.hpp"
+#include "feeler/qp/dual/fresh_look.hpp"
+#include "feeler/qp/dual/held_minimum.hpp"
+#include "feeler/qp/dual/inverse_hessian.hpp"
+#include "feeler/qp/dual/operator_method.hpp"
+#include "feeler/qp/dual/problem_rows.hpp"
+#include "feeler/qp/dual/row_scan.hpp"
+#include "feeler/qp/dual/six.hpp"
+#include "feeler/qp/dual/table_by_columns.hpp"
+#include "feeler/qp/dual/whole_table.hpp"
 #include "feeler/qp/problem.hpp"
-#include "feeler/qp/problem_rows.hpp"
 #include "feeler/qp/qp_solver.hpp"
-#include "feeler/qp/row_scan.hpp"
-#include "feeler/qp/six.hpp"
 #include "feeler/qp/solution.hpp"
-#include "feeler/qp/table_by_columns.hpp"
 #include "feeler/qp/warm_start.hpp"
-#include "feeler/qp/whole_table.hpp"
 
 namespace feeler {
 

@@ -5,12 +5,12 @@
 
 #include "feeler/core/status.hpp"
 #include "feeler/render/contact_method.hpp"
-#include "feeler/render/linearisation.hpp"
 #include "feeler/render/motion_certificate.hpp"
 #include "feeler/render/rendered_scene.hpp"
-#include "feeler/render/step_limits.hpp"
+#include "feeler/render/sqp/linearisation.hpp"
+#include "feeler/render/sqp/step_limits.hpp"
+#include "feeler/render/sqp/work_budget.hpp"
 #include "feeler/render/tick.hpp"
-#include "feeler/render/work_budget.hpp"
 #include "feeler/spatial/half_way.hpp"
 
 namespace feeler {

@@ -8,10 +8,10 @@
 #include <span>
 #include <type_traits>
 
-#include "feeler/contact/working_set.hpp"
 #include "feeler/core/fixed_vector.hpp"
 #include "feeler/proximity/plane_cache.hpp"
 #include "feeler/proximity/sweep.hpp"
+#include "feeler/render/constraints/working_set.hpp"
 #include "feeler/render/rendered_scene.hpp"
 #include "feeler/tool/piece_tree.hpp"
 

@@ -1,0 +1,316 @@
+// The optimisation of one step: rows that keep a margin where they can, and the Newton step on the Lagrangian.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <optional>
+
+#include "feeler/contact/contact_row.hpp"
+#include "feeler/core/fixed_vector.hpp"
+#include "feeler/core/scalar.hpp"
+#include "feeler/qp/qp_solver.hpp"
+#include "feeler/qp/warm_start.hpp"
+#include "feeler/render/sqp/definiteness.hpp"
+#include "feeler/render/sqp/elastic_rows.hpp"
+#include "feeler/render/sqp/last_forces.hpp"
+#include "feeler/spatial/metric.hpp"
+
+namespace feeler {
+
+/// Solves for one step d of the tool: min f(d) + price · ξ subject to gapₖ + Jₖ d ≥ max(leastₖ, margin − ξ).
+///
+/// ξ is what is missing of the margin where most is missing (`ElasticRows`), and its price is of the order of the largest contact force: no step goes
+/// away from the hand for more than the margin is worth. `leastₖ` is what the pair has at the last certified pose, of which a fifth of the margin is
+/// enough; as that pose meets it, a step exists. Where there is no clearance at all it is 0. Many rows ask the same then, and chance would tell which
+/// of them hold the tool: those that have not held it lately are asked for a picometre less, so that it is the same few.
+/// @tparam RowType  a `ContactRow`, or one with another curvature
+template <QpSolver Solver, int rows = 128, class RowType = ContactRow<typename Solver::Scalar>>
+class StepProblem {
+ public:
+  using Scalar = typename Solver::Scalar;
+  using Row = RowType;
+  static constexpr int row_capacity = rows;
+  static_assert(row_capacity <= QpProblem<Scalar>::row_capacity);
+
+  /// What is known of the pair that a row is of.
+  struct Standing {
+    Scalar certified_gap;   ///< separation at the last certified pose, 0 where that is none [m]
+    bool is_spare = false;  ///< it has not held the tool lately: where there is no clearance others are to hold it
+  };
+
+  void clear() noexcept {
+    rows_.clear();
+    kept_ = 0;
+  }
+  /// Appends a row; false when there is no room.
+  bool add(const Row& row, const Standing& standing) noexcept {
+    if (!rows_.push_back(row)) return false;
+    standings_[index(rows_.size() - 1)] = standing;
+    return true;
+  }
+  /// Whether a row in the problem asks the same as another.
+  bool repeats(const Row& other) const noexcept {
+    return std::any_of(rows_.begin(), rows_.end(), [&other](const Row& row) { return other.repeats(row); });
+  }
+  /// Moves the rows to where a motion from the pose of linearisation ends, less those kept. Where `standing_of(row)` is empty the result is
+  /// false, and the problem is to be cleared.
+  template <class StandingOf>
+  bool carry(const Displacement<Scalar>& motion, const StandingOf& standing_of) noexcept {
+    const int count = rows_.size() - kept_;
+    clear();
+    for (int k = 0; k < count; ++k) {
+      const Row row = rows_[k].carried(motion);
+      const std::optional<Standing> standing = standing_of(row);
+      if (!standing) return false;
+      add(row, *standing);
+    }
+    return true;
+  }
+  /// Appends a row that held where the motion began, to hold where it ends; no other row may follow.
+  bool keep(const Row& row, Scalar certified_gap) noexcept {
+    if (!add(row, {certified_gap})) return false;
+    ++kept_;
+    return true;
+  }
+  /// QPs that the last step took.
+  int solves() const noexcept { return solves_; }
+  /// Whether the last solution leaves some of the margin out.
+  bool is_relaxed() const noexcept { return elastic_.relaxation() > Scalar(0); }
+  /// What the margin that the last step wins is worth, to first order [m²].
+  Scalar worth_of_margin() const noexcept { return price_ * (elastic_.relaxation_at_rest() - elastic_.relaxation()); }
+  /// Whether an assumed row stopped the last step.
+  bool rests_on_assumption() const noexcept {
+    return std::any_of(solution_.active.begin(), solution_.active.end(),
+                       [this](const auto& active) { return rows_[active.row].is_assumed; });
+  }
+  /// Whether a kept row stopped the last step.
+  bool rests_on_kept() const noexcept {
+    return std::any_of(solution_.active.begin(), solution_.active.end(),
+                       [this](const auto& active) { return active.row >= rows_.size() - kept_; });
+  }
+  /// Whether the contacts that stopped the last step are still between the same features after it.
+  bool keeps_features() const noexcept {
+    return std::all_of(solution_.active.begin(), solution_.active.end(),
+                       [this](const auto& active) { return rows_[active.row].outlasts(solution_.step); });
+  }
+  /// Whether a motion from the pose of linearisation leaves every row a gap of at least `least` [m], as far as the same features meet.
+  bool leaves_gaps(const Displacement<Scalar>& motion, Scalar least) const noexcept {
+    return std::all_of(rows_.begin(), rows_.end(), [&](const Row& row) { return carried_gap(row, motion) >= least; });
+  }
+  int row_count() const noexcept { return rows_.size(); }
+  const Row& row(int k) const noexcept { return rows_[k]; }
+  const QpSolution<Scalar>& solution() const noexcept { return solution_; }
+  /// Separation of a row after the step, to first order [m].
+  Scalar gap_after(int k) const noexcept { return rows_[k].gap + problem_.rows[index(k)].dot(solution_.step); }
+  /// Room that the last step left to a row before it would stop it, to first order [m]; 0 for an active one.
+  Scalar room_after(int k) const noexcept { return problem_.rows[index(k)].dot(solution_.step) - problem_.bounds[index(k)]; }
+
+  /// The step that minimises f with its own Hessian: the way home, where no row holds.
+  const Vector6<Scalar>& project(const Metric<Scalar>& metric, const Twist<Scalar>& graphic_from_haptic, Scalar margin) noexcept {
+    load_rows(margin);
+    if (metric.is_isotropic()) {
+      set_hessian(diagonal_of(metric.diagonal()));
+    } else {
+      problem_.hessian = metric.homing_hessian(graphic_from_haptic);
+    }
+    problem_.gradient = metric.gradient(graphic_from_haptic);
+    set_price(metric, graphic_from_haptic, margin);
+    solve_elastic();
+    is_free_ = solution_.active.empty();
+    is_newton_ = true;
+    if (is_free_) last_forces_.clear();
+    return solution_.step;
+  }
+  /// After `project`, or a near guess: where contacts hold, the step with the Hessian of the Lagrangian.
+  const Vector6<Scalar>& bend(const Metric<Scalar>& metric, const Twist<Scalar>& graphic_from_haptic) noexcept {
+    if (is_free_) return solution_.step;
+    projection_ = solution_;
+    set_lagrangian(metric, graphic_from_haptic);
+    solve_elastic(WarmStart(projection_));
+    // Without its rows the curvature they were given means nothing.
+    if (solution_.active.empty()) solution_ = projection_;
+    remember_forces();
+    return solution_.step;
+  }
+  /// What the forces of the last step are worth in the next one.
+  enum class Guess {
+    none,   ///< no contact held the tool, or one that did is gone: nothing was solved
+    wrong,  ///< no contact holds it now, or not all rows can have the margin: to be projected
+    close,  ///< as good as a projection, as other contacts hold it, or with other forces: to be bent
+    right,  ///< the step is what `bend` would find
+  };
+  /// Both at once, with the forces of the last step in place of those of a projection (sequential quadratic programming).
+  Guess bend_again(const Metric<Scalar>& metric, const Twist<Scalar>& graphic_from_haptic, Scalar margin) noexcept {
+    if (last_forces_.empty() || !last_forces_.find(rows_, projection_.active)) return Guess::none;
+    load_rows(margin);
+    set_price(metric, graphic_from_haptic, margin);
+    set_lagrangian(metric, graphic_from_haptic);
+    solve_elastic(WarmStart(projection_));
+    if (solution_.active.empty() || is_relaxed()) return Guess::wrong;
+    is_free_ = false;
+    if (!has_forces_like(projection_)) return Guess::close;
+    remember_forces();
+    return Guess::right;
+  }
+  /// Knows nothing of earlier steps.
+  void forget() noexcept { last_forces_.clear(); }
+  /// Whether no contact holds the tool: the last `project` was not stopped by any row, nor a guess after it.
+  bool is_free() const noexcept { return is_free_; }
+  /// Whether the last `bend` had the Hessian of the Lagrangian whole: else steps shrink by a ratio only, and a short one is not the last.
+  bool is_newton() const noexcept { return is_newton_; }
+
+  /// The smallest step that meets the rows.
+  const Vector6<Scalar>& restore(const Metric<Scalar>& metric, Scalar margin) noexcept {
+    load_rows(margin);
+    set_hessian(diagonal_of(metric.diagonal()));
+    problem_.gradient.setZero();
+    solve_elastic();
+    return solution_.step;
+  }
+
+ private:
+  static std::size_t index(int i) noexcept { return std::size_t(i); }
+
+  /// Whether the last solution has the active rows of another, and their multipliers to an eighth of its largest.
+  bool has_forces_like(const QpSolution<Scalar>& other) const noexcept {
+    Scalar largest(0), change(0);
+    for (const auto& active : solution_.active) {
+      const auto before = std::find_if(other.active.begin(), other.active.end(), [&active](const auto& a) { return a.row == active.row; });
+      if (before == other.active.end()) return false;
+      largest = (std::max)(largest, active.multiplier);
+      change = (std::max)({change, active.multiplier - before->multiplier, before->multiplier - active.multiplier});
+    }
+    return solution_.active.size() == other.active.size() && 8 * change <= largest;
+  }
+
+  /// Where rows have given up the margin only a projection knows which.
+  void remember_forces() noexcept {
+    if (is_relaxed()) last_forces_.clear();
+    else last_forces_.remember(solution_.active, rows_);
+  }
+
+  void load_rows(Scalar margin) noexcept {
+    problem_.clear_rows();
+    elastic_.clear();
+    for (int k = 0; k < rows_.size(); ++k) {
+      const Row& row = rows_[k];
+      const Standing& standing = standings_[index(k)];
+      const bool yields = standing.is_spare && !(standing.certified_gap > Scalar(0));
+      const Scalar soft = margin - row.gap - (yields ? picometre : Scalar(0));
+      problem_.add_row(row.gradient(), soft);
+      elastic_.add(soft, (yields ? -picometre : (std::min)(standing.certified_gap, margin / 5)) - row.gap);
+    }
+  }
+
+  /// Some times the force with which the hand pulls, as a translation of the tool; with next to no force still enough to win the margin back.
+  void set_price(const Metric<Scalar>& metric, const Twist<Scalar>& graphic_from_haptic, Scalar margin) noexcept {
+    using std::sqrt;
+    price_ = price_per_force * (sqrt(2 * metric.energy(graphic_from_haptic)) + margin);
+  }
+
+  /// @param start  rows that are likely to be active
+  void solve_elastic(const WarmStart& start = {}) noexcept {
+    solves_ = elastic_.solve(solver_, problem_, price_, picometre, start, solution_);
+    if (solves_ > 0) return;
+    solves_ = 1;
+    // Rounding or curvature may leave a row short of its hard bound by a hair: stay where rows allow it.
+    for (int k = 0; k < problem_.row_count; ++k) problem_.bounds[index(k)] = (std::min)(problem_.bounds[index(k)], Scalar(0));
+    if (solver_.solve(problem_, solution_) != QpStatus::optimal) {
+      solution_.step.setZero();
+      solution_.active.clear();
+    }
+  }
+
+  static constexpr Scalar price_per_force = Scalar(24);
+  static constexpr Scalar picometre = Scalar(1e-12);  // some tolerances of a solver
+
+  /// H = ∇²f − Σ λₖ ∇²sₖ with the forces of the projection, made positive definite where it matters least.
+  ///
+  /// Across the active rows the step is fixed, so ½ρ(Jₖd − bₖ)² added for each changes nothing along them (augmented Lagrangian). Where H
+  /// has negative curvature along the rows too, the tool is about to slip off: there part of the metric takes its place.
+  [[gnu::flatten, gnu::noinline]]
+  void set_lagrangian(const Metric<Scalar>& metric, const Twist<Scalar>& e) noexcept {
+    const Vector6<Scalar> base = metric.diagonal();
+    problem_.gradient = metric.gradient(e);
+    // Summed before it is subtracted: of contacts between faces much cancels, and does so to the last bit.
+    Matrix6<Scalar> curvature;
+    set_lower(curvature, [](int, int) { return Scalar(0); });
+    for (const auto& active : projection_.active) rows_[active.row].add_curvature(active.multiplier, curvature);
+    const Matrix3<Scalar> turns = metric.hessian_of_turns(e);
+    const auto lagrangian = [&](int i, int j) {
+      const Scalar hessian = j >= 3 ? turns(i - 3, j - 3) : i == j ? base[i] : Scalar(0);
+      return hessian - curvature(i, j);
+    };
+    // Not much flatter than the metric: a flatter one makes steps that no linearisation can carry.
+    const Vector6<Scalar> floor = base * (Scalar(1) / 80);
+    is_newton_ = true;
+    set_hessian(lagrangian);
+    if (is_positive_definite(problem_.hessian, floor)) return;
+
+    Matrix6<Scalar> across;
+    set_lower(across, [](int, int) { return Scalar(0); });
+    Vector6<Scalar> pull = Vector6<Scalar>::Zero();
+    for (const auto& active : projection_.active) {
+      const Vector6<Scalar>& row = problem_.rows[index(active.row)];
+      set_lower(across, [&](int i, int j) { return across(i, j) + row[i] * row[j]; });
+      pull += problem_.bounds[index(active.row)] * row;
+    }
+    for (const Regularisation& regular : regularisations) {
+      const auto entry = [&](int i, int j) {
+        const Scalar sum = regular.share * lagrangian(i, j) + regular.weight * across(i, j);
+        return i == j ? sum + (Scalar(1) - regular.share) * base[i] : sum;
+      };
+      set_hessian(entry);
+      if (!is_positive_definite(problem_.hessian, floor)) continue;
+      problem_.gradient -= regular.weight * pull;
+      is_newton_ = regular.share == Scalar(1);
+      return;
+    }
+    set_hessian(diagonal_of(base));
+    is_newton_ = false;
+  }
+
+  /// Entries of a diagonal matrix.
+  static auto diagonal_of(const Vector6<Scalar>& diagonal) noexcept {
+    return [diagonal](int i, int j) { return i == j ? diagonal[i] : Scalar(0); };
+  }
+  /// Sets the Hessian to `entry(i, j)`, i ≥ j.
+  template <class Entry>
+  void set_hessian(const Entry& entry) noexcept {
+    auto& h = problem_.hessian;
+    set_lower(h, [&](int i, int j) { return h(j, i) = entry(i, j); });
+  }
+  /// Sets the lower triangle of a matrix, number by number.
+  template <class Entry>
+  static void set_lower(Matrix6<Scalar>& m, const Entry& entry) noexcept {
+#pragma GCC unroll 6
+    for (int j = 0; j < 6; ++j) {
+#pragma GCC unroll 6
+      for (int i = j; i < 6; ++i) m(i, j) = entry(i, j);
+    }
+  }
+
+  /// Stiffness across the active rows, and share of the Lagrangian in what is left to the metric; the first that will do is taken, where the
+  /// Lagrangian alone does not.
+  struct Regularisation {
+    Scalar weight, share;
+  };
+  static constexpr std::array<Regularisation, 7> regularisations{
+      {{8, 1}, {64, 1}, {1024, 1}, {64, Scalar(15) / 16}, {64, Scalar(3) / 4}, {64, Scalar(1) / 2}, {64, Scalar(1) / 4}}};
+
+  Solver solver_;
+  QpProblem<Scalar> problem_;
+  QpSolution<Scalar> solution_;
+  QpSolution<Scalar> projection_;  // or what is taken for one
+  LastForces<Row> last_forces_;
+  bool is_free_ = true;
+  bool is_newton_ = true;
+  FixedVector<Row, row_capacity> rows_;
+  int kept_ = 0;  // of them, at the end
+  std::array<Standing, std::size_t(row_capacity)> standings_;
+  ElasticRows<Scalar, row_capacity> elastic_;
+  Scalar price_ = Scalar(0);  // of the margin, in the unit of multipliers
+  int solves_ = 0;
+};
+
+}  // namespace feeler

@@ -1,0 +1,203 @@
+// The step to the optimum, against closed forms for one contact that bends.
+#include "feeler/render/sqp/step_problem.hpp"
+
+#include <boost/test/unit_test.hpp>
+
+#include <cmath>
+
+#include "feeler/proximity/clearance.hpp"
+#include "feeler/qp/dual_active_set.hpp"
+
+BOOST_AUTO_TEST_SUITE(step_problem)
+
+using namespace feeler;
+
+namespace {
+
+/// A contact with a floor z = 0, and any curvature.
+struct BentRow : ContactRow<double> {
+  Matrix6<double> bend = Matrix6<double>::Zero();
+  void add_curvature(double multiple, Matrix6<double>& lower) const noexcept { lower += multiple * bend; }
+};
+
+using Problem = StepProblem<DualActiveSet<double>, 8, BentRow>;
+
+/// Solves for the step from a contact that is `short_by` too low, with the hand at `hand` from it.
+Vector6<double> step_of(Problem& problem, double short_by, const Eigen::Vector3d& hand, const Matrix6<double>& bend) {
+  BentRow row;
+  row.gap = -short_by;
+  row.bend = bend;
+  problem.clear();
+  BOOST_TEST_REQUIRE(problem.add(row, {0.0}));
+  const Metric<double> metric;
+  const Twist<double> graphic_from_haptic{-hand, Eigen::Vector3d::Zero()};
+  problem.project(metric, graphic_from_haptic, 0.0);
+  return problem.bend(metric, graphic_from_haptic);
+}
+
+}  // namespace
+
+BOOST_AUTO_TEST_CASE(a_curvature_that_couples_a_slide_with_the_way_across_it_costs_no_exactness) {
+  // s = gap + z + c x z. With z given by the row, the Lagrangian's optimum along it is x = hand + λ c z, whatever the sign of the whole Hessian.
+  Problem problem;
+  const double short_by = 1e-7;
+  const Eigen::Vector3d hand(2e-6, 0, -1e-3);
+  const double multiplier = short_by - hand.z();
+  for (const double coupling : {0.0, 0.9, 4.0, 17.0, 28.0}) {  // λ c
+    Matrix6<double> bend = Matrix6<double>::Zero();
+    bend(0, 2) = bend(2, 0) = coupling / multiplier;
+    const Vector6<double> step = step_of(problem, short_by, hand, bend);
+    BOOST_TEST_CONTEXT("coupling " << coupling) {
+      BOOST_TEST(problem.is_newton());
+      BOOST_TEST(step[2] == short_by, boost::test_tools::tolerance(1e-9));
+      BOOST_TEST(step[0] == hand.x() + coupling * short_by, boost::test_tools::tolerance(1e-9));
+    }
+  }
+}
+
+BOOST_AUTO_TEST_CASE(where_the_tool_is_about_to_slip_off_the_step_is_finite_and_no_shorter_than_without_the_bend) {
+  Problem problem;
+  const Eigen::Vector3d hand(2e-4, 0, -1e-3);
+  for (const double falls_off : {0.99, 1.0, 3.0, 500.0}) {  // less is the Hessian along the slide than the metric's
+    Matrix6<double> bend = Matrix6<double>::Zero();
+    bend(0, 0) = falls_off / -hand.z();
+    const Vector6<double> step = step_of(problem, 0.0, hand, bend);
+    BOOST_TEST_CONTEXT("bent by " << falls_off) {
+      BOOST_TEST(!problem.is_newton());
+      BOOST_TEST(step.allFinite());
+      BOOST_TEST(step[0] >= hand.x());
+      BOOST_TEST(std::abs(step[2]) < 1e-12);
+    }
+  }
+}
+
+BOOST_AUTO_TEST_CASE(between_two_walls_a_step_leaves_what_its_certificate_requires_however_little_there_is) {
+  // As far from the wall below as from that above, with less than two margins between them; the hand is far below.
+  constexpr double margin = 1e-6, tolerance = 2.5e-13;  // the solver's
+  const Clearance<double> clearance;
+  for (const double gap : {-4e-12, -1e-12, 0.0, 5e-13, 1.7e-12, 4e-12, 9e-12, 1.1e-11, 5e-11, 2e-10, 1e-8}) {
+    for (const bool is_spare : {false, true}) {
+      Problem problem;
+      BentRow floor, ceiling;
+      ceiling.normal = -floor.normal;
+      floor.gap = ceiling.gap = gap;
+      const double certified_gap = gap > clearance.negligible() ? gap : 0;
+      BOOST_TEST_REQUIRE(problem.add(floor, {certified_gap, is_spare}));
+      BOOST_TEST_REQUIRE(problem.add(ceiling, {certified_gap}));
+      problem.project(Metric<double>(), {{0, 0, 1e-3}, Eigen::Vector3d::Zero()}, margin);
+      BOOST_TEST_CONTEXT("gap " << gap << (is_spare ? ", spare" : "")) {
+        BOOST_TEST(problem.is_relaxed());
+        BOOST_TEST(problem.gap_after(0) >= clearance.required(gap) - tolerance);
+      }
+    }
+  }
+}
+
+BOOST_AUTO_TEST_CASE(with_the_forces_of_the_last_step_steps_converge_quadratically_without_a_projection) {
+  // A point held by a ball, the hand inside it: it comes to rest where the ray from the middle through the hand leaves the ball.
+  const double radius = 0.01;
+  const Eigen::Vector3d hand(0.004, 0.001, 0.003);
+  const Metric<double> metric;
+  Problem problem;
+  Eigen::Vector3d point = radius * Eigen::Vector3d(0.3, -0.4, 0.9).normalized();
+  int steps = 0;
+  for (double error = 1; error > 1e-15 && steps < 8; ++steps) {
+    BentRow row;
+    row.normal = point.normalized();
+    row.gap = point.norm() - radius;
+    row.bend.topLeftCorner<3, 3>() = (Eigen::Matrix3d::Identity() - row.normal * row.normal.transpose()) / point.norm();
+    problem.clear();
+    BOOST_TEST_REQUIRE(problem.add(row, {0.0}));
+    const Twist<double> graphic_from_haptic{point - hand, Eigen::Vector3d::Zero()};
+    if (steps == 0) {
+      BOOST_TEST((problem.bend_again(metric, graphic_from_haptic, 0.0) == Problem::Guess::none));  // there is no last step
+      problem.project(metric, graphic_from_haptic, 0.0);
+      problem.bend(metric, graphic_from_haptic);
+    } else {
+      const Problem::Guess guess = problem.bend_again(metric, graphic_from_haptic, 0.0);
+      BOOST_TEST_REQUIRE((guess == (steps == 1 ? Problem::Guess::close : Problem::Guess::right)));  // the first step is long, and the force becomes another
+      if (guess == Problem::Guess::close) problem.bend(metric, graphic_from_haptic);
+      BOOST_TEST(!problem.is_free());
+    }
+    point += problem.solution().step.head<3>();
+    const double last = error;
+    error = (point - radius * hand.normalized()).norm();
+    if (steps > 0) BOOST_TEST(error < 150 * last * last + 1e-16, "step " << steps << ": " << last << " to " << error);
+  }
+  BOOST_TEST(steps <= 6);
+}
+
+BOOST_AUTO_TEST_CASE(a_guess_of_the_forces_says_what_it_is_worth) {
+  using Corner = StepProblem<DualActiveSet<double>, 8>;
+  using Guess = Corner::Guess;
+  const Metric<double> metric;
+  const auto into = [](double x, double z) { return Twist<double>{{x, 0, z}, Eigen::Vector3d::Zero()}; };  // the corner between the two, or out of it
+  ContactRow<double> floor, wall;
+  wall.normal = Eigen::Vector3d::UnitX();
+  Corner problem;
+  const auto solve = [&](const Twist<double>& e) {
+    problem.project(metric, e, 0.0);
+    problem.bend(metric, e);
+  };
+  problem.add(floor, {0.0});
+  problem.add(wall, {0.0});
+  solve(into(-1e-3, 1e-3));
+  BOOST_TEST((problem.bend_again(metric, into(-1e-3, 1.1e-3), 0.0) == Guess::right));
+  BOOST_TEST((problem.bend_again(metric, into(-1e-3, 2e-3), 0.0) == Guess::close));  // the force is another
+  BOOST_TEST((problem.bend_again(metric, into(1e-3, 1e-3), 0.0) == Guess::close));  // the wall holds it too
+  problem.bend(metric, into(1e-3, 1e-3));
+  BOOST_TEST(problem.solution().step.isZero(1e-18));
+  BOOST_TEST((problem.bend_again(metric, into(1e-3, -1e-3), 0.0) == Guess::close));  // the floor does not
+  BOOST_TEST((problem.bend_again(metric, into(-1e-3, -1e-3), 0.0) == Guess::wrong));  // nothing does
+  problem.restore(metric, 1e-6);  // whose forces are of another problem
+  BOOST_TEST((problem.bend_again(metric, into(1e-3, 1e-3), 0.0) == Guess::right));
+
+  problem.clear();
+  problem.add(floor, {0.0});
+  BOOST_TEST((problem.bend_again(metric, into(-1e-3, 1e-3), 0.0) == Guess::none));  // the wall is gone
+  solve(into(-1e-3, 1e-3));
+  problem.clear();
+  problem.add(wall, {0.0});
+  problem.add(floor, {0.0});
+  BOOST_TEST((problem.bend_again(metric, into(-1e-3, 1e-3), 0.0) == Guess::right));
+  ContactRow<double> ceiling;  // with which none has the margin
+  ceiling.normal = -floor.normal;
+  problem.add(ceiling, {0.0});
+  BOOST_TEST((problem.bend_again(metric, into(-1e-3, 1e-3), 1e-6) == Guess::wrong));
+  problem.clear();
+  problem.add(floor, {0.0});
+  solve(into(-1e-3, 1e-3));
+  problem.project(metric, into(-1e-3, -1e-3), 0.0);
+  BOOST_TEST(problem.is_free());
+  BOOST_TEST((problem.bend_again(metric, into(-1e-3, 1e-3), 0.0) == Guess::none));  // it was free
+  solve(into(-1e-3, 1e-3));
+  problem.forget();
+  BOOST_TEST((problem.bend_again(metric, into(-1e-3, 1e-3), 0.0) == Guess::none));
+}
+
+BOOST_AUTO_TEST_CASE(without_clearance_spare_rows_leave_the_tool_to_others_that_ask_the_same) {
+  // Between a floor and a ceiling that it touches, in four places each: the hand pushes down and turns.
+  const Metric<double> metric;
+  const Twist<double> graphic_from_haptic{{2e-5, -1e-5, 1e-4}, {3e-3, -2e-3, 1e-3}};
+  for (unsigned spares = 0; spares < 256; ++spares) {
+    StepProblem<DualActiveSet<double>, 8> problem;
+    int spare_count = 0;
+    for (int i = 0; i < 8; ++i) {
+      ContactRow<double> row;
+      const bool is_ceiling = i >= 4, is_spare = (spares >> i & 1) != 0;
+      if (is_ceiling) row.normal = -row.normal;
+      row.arm = {i % 2 == 0 ? 0.01 : -0.01, i / 2 % 2 == 0 ? 0.01 : -0.01, is_ceiling ? 0.002 : -0.002};
+      BOOST_TEST_REQUIRE(problem.add(row, {0.0, is_spare}));
+      spare_count += is_spare;
+    }
+    const Vector6<double> step = problem.project(metric, graphic_from_haptic, 1e-6);
+    BOOST_TEST(std::abs(step[2]) < 3e-12, "spares " << spares << ": sinks by " << step[2]);
+    BOOST_TEST(step.segment<2>(3).norm() < 1e-9, "spares " << spares << ": tilts");
+    if (spare_count > 1) continue;  // the others might let it tilt
+    for (const auto& active : problem.solution().active) {
+      BOOST_TEST((spares >> active.row & 1) == 0u, "spares " << spares << ": row " << active.row << " holds the tool");
+    }
+  }
+}
+
+BOOST_AUTO_TEST_SUITE_END()
