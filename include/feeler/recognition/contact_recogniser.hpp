@@ -18,6 +18,7 @@
 #include "feeler/recognition/witness_search.hpp"
 #include "feeler/spatial/pose.hpp"
 #include "feeler/tool/convex_tool.hpp"
+#include "feeler/tool/tool_incidence.hpp"
 #include "feeler/tool/swept_tool.hpp"
 
 namespace feeler {
