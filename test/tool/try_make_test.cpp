@@ -2,7 +2,6 @@
 #include <boost/test/unit_test.hpp>
 
 #include <array>
-#include <cmath>
 #include <limits>
 #include <string>
 #include <vector>
