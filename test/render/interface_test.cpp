@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <type_traits>
+#include <utility>
 
 #include "scenes/cavity.hpp"
 #include "scenes/motions.hpp"
@@ -53,6 +54,23 @@ BOOST_AUTO_TEST_CASE(the_renderer_deduces_its_type_from_object_tool_and_settings
   HapticRenderer<Box<double>, DualActiveSet<double>> explicit_form(object, cube);
   BOOST_TEST((explicit_form.reset({{0, 0, 1}, Quaternion<double>::Identity()}) == Status::converged));
   BOOST_TEST((without_settings.settings().margin == Settings<double>{}.margin));
+}
+
+BOOST_AUTO_TEST_CASE(a_renderer_is_small_on_the_stack_and_copied_with_all_that_it_knows) {
+  using Compound = CompoundTool<ConvexPolytope<double>>;
+  static_assert(sizeof(HapticRenderer<Box<double>>) < 4096 && sizeof(HapticRenderer<Compound>) < 4096);
+  const TriangleMesh<double> object = floor_mesh();
+  HapticRenderer renderer(object, cube);
+  BOOST_TEST((renderer.reset({.translation = {0, 0, 0.02}}) == Status::converged));
+  renderer.update({.translation = {0, 0, 0.009}});
+  HapticRenderer copy = renderer;
+  const Pose<double> up{.translation = {0.1, 0, 0.05}}, down{.translation = {0.01, 0, 0.005}};
+  renderer.update_until_converged(up, 100000);
+  HapticRenderer again = copy;
+  BOOST_TEST(is_same(copy.update(down).graphic_pose, again.update(down).graphic_pose));  // untouched by what the first did
+  BOOST_TEST(is_same(renderer.tick().graphic_pose, up));
+  const HapticRenderer moved = std::move(copy);
+  BOOST_TEST(is_same(moved.tick().graphic_pose, again.tick().graphic_pose));
 }
 
 BOOST_AUTO_TEST_CASE(an_update_before_a_reset_passes_the_haptic_pose_through_with_no_wrench) {

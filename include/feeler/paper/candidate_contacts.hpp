@@ -31,7 +31,7 @@ class CandidateContactsFollower {
   using Scalar = typename Scene::Scalar;
   using MeshScalar = typename Scene::MeshScalar;
 
-  explicit CandidateContactsFollower(const Scene& scene) : search_(scene) {}
+  explicit CandidateContactsFollower(const Scene& scene) : search_(scene), certificate_(scene) {}
 
   const Pose<Scalar>& pose() const noexcept { return pose_; }
   /// Combinations optimised in the last tick.
@@ -162,6 +162,7 @@ class CandidateContactsFollower {
   }
 
   struct Nothing {
+    explicit Nothing(const Scene&) noexcept {}
     void clear() noexcept {}
   };
 

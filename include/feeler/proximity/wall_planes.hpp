@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <limits>
 #include <utility>
+#include <vector>
 
 #include "feeler/core/scalar.hpp"
 #include "feeler/object/surface_walk.hpp"
@@ -28,9 +29,12 @@ class WallPlanes {
  public:
   using Scalar = ScalarType;
 
+  /// @param has_walls  whether the object has any; else no room is taken
+  explicit WallPlanes(bool has_walls = true) : planes_(has_walls ? plane_capacity : 0), covers_(has_walls ? cover_capacity : 0) {}
+
   void clear() noexcept {
-    planes_.fill({});
-    covers_.fill({});
+    std::fill(planes_.begin(), planes_.end(), Plane());
+    std::fill(covers_.begin(), covers_.end(), Cover());
     motion_ = end_ = last_end_ = 0;
     goes_on_ = false;
     axes_at_end_.setZero();
@@ -232,8 +236,8 @@ class WallPlanes {
   Matrix3<Scalar> axes_at_end_ = Matrix3<Scalar>::Zero();
   Vector3<Scalar> shift_ = Vector3<Scalar>::Zero(), last_shift_ = Vector3<Scalar>::Zero();  // to the end of the motion at hand, and of the last [m]
   int evaluations_ = 0;
-  std::array<Plane, plane_capacity> planes_;
-  std::array<Cover, cover_capacity> covers_;
+  std::vector<Plane> planes_;
+  std::vector<Cover> covers_;
 };
 
 }  // namespace feeler

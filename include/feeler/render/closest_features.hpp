@@ -27,7 +27,7 @@ class ClosestFeaturesFollower {
   using MeshScalar = typename Scene::MeshScalar;
   using Piece = typename Scene::Piece;
 
-  explicit ClosestFeaturesFollower(const Scene& scene) : linearisation_(scene) {}
+  explicit ClosestFeaturesFollower(const Scene& scene) : linearisation_(scene), certificate_(scene) {}
 
   const Pose<Scalar>& pose() const noexcept { return pose_; }
   /// Of the last tick: where the hand was, and the last step that was solved for.

@@ -3,8 +3,10 @@
 
 #include <algorithm>
 #include <limits>
+#include <memory>
 #include <string>
 
+#include "feeler/core/on_heap.hpp"
 #include "feeler/core/result.hpp"
 #include "feeler/core/status.hpp"
 #include "feeler/object/mesh_interior.hpp"
@@ -27,6 +29,7 @@ namespace feeler {
 /// (`Sweep`), so whatever the device does, a pose that is returned is free of collision and nothing thin is crossed.
 ///
 /// The object must outlive the renderer. One renderer belongs to one thread at a time.
+/// It takes some kilobytes where it is; what ticks work on is on the heap from its construction on: 0.3 MB, and 4 kB more for each further piece of the tool.
 /// @tparam Tool    a `RigidTool`; its scalar is the renderer's
 /// @tparam Solver  a `QpSolver` on the working scalar
 /// @tparam Method  a `ContactMethod`: how contact is modelled
@@ -75,16 +78,24 @@ class HapticRenderer {
   const Tick<Scalar>& tick() const noexcept { return tick_; }
 
   /// The contact method at work, for what it tells beyond the tick.
-  const Follower& follower() const noexcept { return follower_; }
+  const Follower& follower() const noexcept { return state_->follower; }
 
  private:
-  bool is_free_at(const Pose<Working>& pose) const noexcept;
+  bool is_free_at(const Pose<Working>& pose) noexcept;
   bool is_inside_at(const Pose<Working>& pose) const noexcept;
   void report(const Pose<Working>& target) noexcept;
 
+  /// What ticks work on.
+  struct State {
+    explicit State(const RenderedScene<Tool>& scene) : follower(scene), start(scene) {}
+
+    Follower follower;
+    MotionCertificate<Tool> start;  // of where it is reset
+  };
+
   RenderedScene<Tool> scene_;
-  MeshInterior interior_;
-  Follower follower_;
+  std::shared_ptr<const MeshInterior> interior_;  // where it is asked for
+  OnHeap<State> state_;
   bool is_reset_ = false;
   Tick<Scalar> tick_;
 };
@@ -94,7 +105,9 @@ class HapticRenderer {
 template <RigidTool ToolType, QpSolver Solver, ContactMethod<ToolType, Solver> Method>
 HapticRenderer<ToolType, Solver, Method>::HapticRenderer(const TriangleMesh<Scalar>& object, const Tool& tool,
                                                          const Settings<Scalar>& settings)
-    : scene_(object, tool, settings), interior_(object), follower_(scene_) {}
+    : scene_(object, tool, settings),
+      interior_(settings.closed_means_solid ? std::make_shared<const MeshInterior>(object) : nullptr),
+      state_(std::in_place, scene_) {}
 
 template <RigidTool ToolType, QpSolver Solver, ContactMethod<ToolType, Solver> Method>
 TickStatus HapticRenderer<ToolType, Solver, Method>::reset(const Pose<Scalar>& pose) noexcept {
@@ -105,7 +118,7 @@ TickStatus HapticRenderer<ToolType, Solver, Method>::reset(const Pose<Scalar>& p
   const Pose<Working> reference_pose = scene_.reference_pose(pose);
   if (!is_free_at(reference_pose)) return tick_.status = TickStatus::penetrating;
   if (is_inside_at(reference_pose)) return tick_.status = TickStatus::inside;
-  follower_.reset(scene_, reference_pose);
+  state_->follower.reset(scene_, reference_pose);
   tick_.graphic_pose = scene_.tool_pose(reference_pose);  // to the last bit what ticks that do not move give
   is_reset_ = true;
   return tick_.status = TickStatus::converged;
@@ -126,7 +139,7 @@ const Tick<typename ToolType::Scalar>& HapticRenderer<ToolType, Solver, Method>:
   const Pose<Working> target = scene_.reference_pose(haptic_pose);
   tick_.work = 0;
   tick_.path.clear();
-  tick_.status = follower_.follow(scene_, target, tick_);
+  tick_.status = state_->follower.follow(scene_, target, tick_);
   report(target);
   return tick_;
 }
@@ -145,34 +158,34 @@ const Tick<typename ToolType::Scalar>& HapticRenderer<ToolType, Solver, Method>:
 }
 
 template <RigidTool ToolType, QpSolver Solver, ContactMethod<ToolType, Solver> Method>
-bool HapticRenderer<ToolType, Solver, Method>::is_free_at(const Pose<Working>& pose) const noexcept {
+bool HapticRenderer<ToolType, Solver, Method>::is_free_at(const Pose<Working>& pose) noexcept {
   int work = 0;
-  MotionCertificate<Tool> certificate;
-  return certificate.certify(scene_, pose, {}, work, (std::numeric_limits<int>::max)()).blockers.empty();
+  state_->start.clear();
+  return state_->start.certify(scene_, pose, {}, work, (std::numeric_limits<int>::max)()).blockers.empty();
 }
 
 /// Of a free pose. A piece that crosses no triangle is in a solid with all of it, or with none.
 template <RigidTool ToolType, QpSolver Solver, ContactMethod<ToolType, Solver> Method>
 bool HapticRenderer<ToolType, Solver, Method>::is_inside_at(const Pose<Working>& pose) const noexcept {
-  if (!settings().closed_means_solid || interior_.is_empty()) return false;
+  if (interior_ == nullptr || interior_->is_empty()) return false;
   const Pose<Working> frame = scene_.tool_frame(pose);
   // A thin tool that lies on the surface is within rounding of either side.
   const auto rounding = static_cast<double>(2 * scene_.clearance().negligible() + scene_.clearance().rounding);
   for (int i = 0; i < scene_.piece_count(); ++i) {
     const Vector3<Working> point = frame * middle_of(scene_.piece(i));
-    if (interior_.encloses(scene_.object(), Vector3<double>(point.template cast<double>()), rounding)) return true;
+    if (interior_->encloses(scene_.object(), Vector3<double>(point.template cast<double>()), rounding)) return true;
   }
   return false;
 }
 
 template <RigidTool ToolType, QpSolver Solver, ContactMethod<ToolType, Solver> Method>
 void HapticRenderer<ToolType, Solver, Method>::report(const Pose<Working>& target) noexcept {
-  tick_.graphic_pose = scene_.tool_pose(follower_.pose());
+  tick_.graphic_pose = scene_.tool_pose(state_->follower.pose());
   const Stiffness<Working> stiffness{settings().stiffness.translational.template cast<Working>(),
                                      settings().stiffness.rotational.template cast<Working>()};
-  tick_.wrench = stiffness.wrench(scene_.idle_turns().motion_between(target, follower_.pose())).template cast<Scalar>();
+  tick_.wrench = stiffness.wrench(scene_.idle_turns().motion_between(target, state_->follower.pose())).template cast<Scalar>();
   tick_.contacts.clear();
-  follower_.report(scene_, tick_);
+  state_->follower.report(scene_, tick_);
 }
 
 template <RigidTool Tool>

@@ -7,6 +7,7 @@
 #include <limits>
 #include <span>
 #include <type_traits>
+#include <vector>
 
 #include "feeler/core/fixed_vector.hpp"
 #include "feeler/proximity/plane_cache.hpp"
@@ -25,6 +26,9 @@ class MotionCertificate {
   using Scene = RenderedScene<ToolType>;
   using Scalar = typename Scene::Scalar;
   using Piece = typename Scene::Piece;
+
+  explicit MotionCertificate(const Scene& scene)
+      : planes_(std::size_t(scene.piece_count())), walls_(scene.object().walls().count() > 0), groups_(std::size_t(scene.piece_count() - 1)) {}
 
   void clear() noexcept {
     for (auto& planes : planes_) planes.clear();
@@ -178,10 +182,10 @@ class MotionCertificate {
         .certify(scene.object(), moving, {known.begin(), std::size_t(known.size())}, work, limit, until, first_blocked);
   }
 
-  std::array<PlaneCache<Scalar>, std::size_t(maximum_pieces<ToolType>)> planes_;
+  std::vector<PlaneCache<Scalar>> planes_;  // of the pieces
   std::bitset<std::size_t(maximum_pieces<ToolType>)> is_near_;  // pieces, on the last motion
   WallPlanes<Scalar> walls_;
-  std::array<Group, std::size_t(maximum_pieces<ToolType> - 1)> groups_;
+  std::vector<Group> groups_;
 };
 
 }  // namespace feeler

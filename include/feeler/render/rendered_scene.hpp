@@ -7,6 +7,7 @@
 #include <span>
 #include <type_traits>
 #include <utility>
+#include <vector>
 
 #include "feeler/core/requirement.hpp"
 #include "feeler/object/triangle_mesh.hpp"
@@ -55,8 +56,8 @@ class RenderedScene {
         idle_turns_(tool_, reference_, metric_),
         piece_tree_(tool_) {
     for (int i = 0; i < piece_count(); ++i) {
-      incidences_[index(i)] = incidence_of(piece(i));
-      radii_[index(i)] = radius_about(piece(i), reference_);
+      incidences_.push_back(incidence_of(piece(i)));
+      radii_.push_back(radius_about(piece(i), reference_));
       radius_ = (std::max)(radius_, radii_[index(i)]);
     }
     const SceneRounding<MeshScalar, Scalar> rounding(object, tool_, reference_);
@@ -163,9 +164,9 @@ class RenderedScene {
   const TriangleMesh<MeshScalar>* object_;
   Tool tool_;
   Settings<MeshScalar> settings_;
-  std::array<FeatureIncidence, std::size_t(maximum_pieces<Tool>)> incidences_;
+  std::vector<FeatureIncidence> incidences_;  // of the pieces
   Vector3<Scalar> reference_;
-  std::array<Scalar, std::size_t(maximum_pieces<Tool>)> radii_;
+  std::vector<Scalar> radii_;
   Scalar radius_ = Scalar(0);
   Metric<Scalar> metric_;
   [[no_unique_address]] IdleTurns<Tool> idle_turns_;
