@@ -52,9 +52,9 @@ class ContactPatch {
   /// @param reference        reference point in the tool frame [m]
   /// @param band             height above the separating plane up to which features count, where their gap is at most a quarter of it [m]
   /// @param assumes_valleys  let the planes of valleys hold the tool before it is over them
-  /// @param near             is filled with the tool vertices in the band; made for at least as many as the tool has
+  /// @param near_vertices    is filled with the tool vertices in the band; made for at least as many as the tool has
   ContactPatch(const Tool& tool, const FeatureIncidence& incidence, const TriangleMesh<MeshScalar>& mesh,
-               const Matrix3<Scalar>& world_from_tool, const Vector& reference, Scalar band, bool assumes_valleys, VertexSet& near) noexcept
+               const Matrix3<Scalar>& world_from_tool, const Vector& reference, Scalar band, bool assumes_valleys, VertexSet& near_vertices) noexcept
       : tool_(tool),
         incidence_(incidence),
         world_from_tool_(world_from_tool),
@@ -64,7 +64,7 @@ class ContactPatch {
         assumes_valleys_(assumes_valleys),
         maker_(tool, world_from_tool_, reference, seam_),
         surface_(mesh, world_from_tool_, seam_),
-        near_(near) {}
+        near_(near_vertices) {}
   ContactPatch(const ContactPatch&) = delete;
   ContactPatch& operator=(const ContactPatch&) = delete;
 

@@ -52,9 +52,9 @@ class LocalSearch {
   static constexpr int ring_capacity = 48;
 
   /// @param reach  how far apart features that will meet within the tick may be now [m]
-  /// @param near   is filled with neighbours on the tool; made for at least as many as the tool has vertices
-  LocalSearch(const Tool& tool, const TriangleMesh<MeshScalar>& mesh, const Pose<Scalar>& pose, Scalar reach, VertexSet& near) noexcept
-      : tool_(tool), mesh_(mesh), pose_(pose), axes_(pose.rotation.toRotationMatrix()), reach_(reach), near_(near) {}
+  /// @param near_vertices  is filled with neighbours on the tool; made for at least as many as the tool has vertices
+  LocalSearch(const Tool& tool, const TriangleMesh<MeshScalar>& mesh, const Pose<Scalar>& pose, Scalar reach, VertexSet& near_vertices) noexcept
+      : tool_(tool), mesh_(mesh), pose_(pose), axes_(pose.rotation.toRotationMatrix()), reach_(reach), near_(near_vertices) {}
 
   /// The triangles that share a corner with one, itself first.
   static FixedVector<int, ring_capacity> ring(const TriangleMesh<MeshScalar>& mesh, int triangle) noexcept {
