@@ -194,7 +194,7 @@ class ContactPatch {
   /// Of many vertices, as of a round end, those that hold it up.
   [[gnu::flatten, gnu::noinline]]
   void add_outer_vertices_on_face(Rows& rows) noexcept {
-    take_outer_rows<Row>([this](const auto& visit) { visit_vertices_on_face(visit); }, band_ / 16, rows);
+    take_outer_rows<Row>([this](const auto& visit) { this->visit_vertices_on_face(visit); }, band_ / 16, rows);
   }
 
   /// The triangle's own plane, where the lowest tool vertex is beside it, near, and every edge between them is a valley's.
