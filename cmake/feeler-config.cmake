@@ -1,5 +1,18 @@
+# find_package(feeler): the headers, feeler::feeler. find_package(feeler COMPONENTS device): the device module too, feeler::device.
 include(CMakeFindDependencyMacro)
 if(NOT TARGET Eigen3::Eigen)
   find_dependency(Eigen3 3.4 NO_MODULE)
 endif()
 include(${CMAKE_CURRENT_LIST_DIR}/feeler-targets.cmake)
+
+foreach(component IN LISTS feeler_FIND_COMPONENTS)
+  set(feeler_${component}_FOUND FALSE)
+  if(component STREQUAL "device" AND EXISTS ${CMAKE_CURRENT_LIST_DIR}/feeler-device-targets.cmake)
+    find_dependency(Threads)
+    include(${CMAKE_CURRENT_LIST_DIR}/feeler-device-targets.cmake)
+    set(feeler_device_FOUND TRUE)
+  elseif(feeler_FIND_REQUIRED_${component})
+    set(feeler_FOUND FALSE)
+    set(feeler_NOT_FOUND_MESSAGE "This feeler was installed without the component ${component}: build it with -DFEELER_BUILD_DEVICE=ON.")
+  endif()
+endforeach()

@@ -1,0 +1,3 @@
+#include <parent.hpp>
+
+int main() { return margin_of_parent() > 0 ? 0 : 1; }
