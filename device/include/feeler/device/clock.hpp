@@ -19,7 +19,7 @@ class Clock {
   Clock& operator=(const Clock&) = default;
 };
 
-/// CLOCK_MONOTONIC, with waits for absolute moments: a wait that starts late does not end later.
+/// CLOCK_MONOTONIC, on Windows the performance counter, with waits for absolute moments: a wait that starts late does not end later.
 class MonotonicClock final : public Clock {
  public:
   std::int64_t now() noexcept override;

@@ -7,14 +7,13 @@
 
 #include "feeler/device/clock.hpp"
 #include "feeler/device/driven_device.hpp"
+#include "feeler/device/maker_libraries.hpp"
 
 namespace feeler {
 
 /// How to find a device of Force Dimension.
 struct ForceDimensionSettings {
-  /// Tried in this order; libdrd contains all of libdhd.
-  std::vector<std::string> libraries = {"libdrd.so", "libdrd.so.3", "libdhd.so", "libdhd.so.3",
-                                        "/usr/local/lib/libdrd.so.3"};
+  std::vector<std::string> libraries = force_dimension_libraries();  ///< tried in this order; libdrd contains all of libdhd
   std::optional<int> serial_number = {};  ///< of one of several devices; goes before the index
   std::optional<int> index = {};  ///< of one of several, from 0 as the library counts them; neither takes the
                                   ///< first that is free

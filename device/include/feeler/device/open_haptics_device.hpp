@@ -6,12 +6,13 @@
 
 #include "feeler/device/clock.hpp"
 #include "feeler/device/driven_device.hpp"
+#include "feeler/device/maker_libraries.hpp"
 
 namespace feeler {
 
 /// How to find a device of OpenHaptics.
 struct OpenHapticsSettings {
-  std::vector<std::string> libraries = {"libHD.so", "libHD.so.3.4", "libHD.so.3.0"};  ///< tried in this order
+  std::vector<std::string> libraries = open_haptics_libraries();  ///< tried in this order
   std::string device_name;  ///< as its setup program calls it, "Default Device" for example; empty takes the
                             ///< default one
 };

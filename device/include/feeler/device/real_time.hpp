@@ -8,7 +8,7 @@ namespace feeler {
 
 /// What to ask the system for.
 struct RealTimeRequest {
-  bool fifo = true;         ///< SCHED_FIFO, before every ordinary thread; the kernel's own threads stay above 80
+  bool fifo = true;         ///< SCHED_FIFO, before every ordinary thread; the kernel's own threads stay above 80. On Windows a time-critical thread
   int priority = 80;        ///< of SCHED_FIFO, 1 to 99
   bool lock_memory = true;  ///< keep the memory of the whole process from being paged out
   int processor = -1;       ///< run on this one only; −1 runs on any

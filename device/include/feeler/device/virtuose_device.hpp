@@ -6,12 +6,13 @@
 
 #include "feeler/device/clock.hpp"
 #include "feeler/device/driven_device.hpp"
+#include "feeler/device/maker_libraries.hpp"
 
 namespace feeler {
 
 /// How to find a device of Haption.
 struct VirtuoseSettings {
-  std::vector<std::string> libraries = {"libvirtuose.so", "libVirtuoseAPI.so"};  ///< tried in this order
+  std::vector<std::string> libraries = virtuose_libraries();  ///< tried in this order
   std::string address = "localhost#5000";  ///< of the controller: host or IP, '#', port
   double period = 1e-3;                    ///< of the servo loop, told to the controller [s]
 };
