@@ -62,7 +62,7 @@ int replay_session(const std::filesystem::path& file) {
 int run_scene(const ChosenScene& chosen, const Options& options, const std::filesystem::path& out) {
   const scenes::Scene& scene = chosen.scene;
   const SessionSettings session{options.rate,   options.seconds,        options.seed,
-                                options.device, options.device_library, options.workspace_scale,
+                                options.device, choice_of(options),     options.workspace_scale,
                                 options.record};
   ReportFolder folder(out);
   std::printf("%s: %s %lld triangles.\n", scene.name.c_str(), scene.description.c_str(),

@@ -26,11 +26,19 @@ void validate(const Options& options) {
   require(within(options.triangles, 2, 4e6), "--triangles must be between 2 and 4000000.");
   require(within(options.rate, 10.0, 2e4), "--rate must be between 10 and 20000 Hz.");
   require(within(options.workspace_scale, 1e-3, 1e3), "--workspace-scale must be between 0.001 and 1000.");
-  require(options.device_library.empty() || (options.device != "simulated" && options.device != "auto"),
-          "--device-library belongs to one maker: choose it with --device.");
+  const auto maker = maker_named(options.device);
+  require(maker || options.device_library.empty(), "--device-library belongs to one maker: choose it with --device.");
+  require(maker || options.device_address.empty(), "--device-address belongs to one maker: choose it with --device.");
+  require(maker || options.serial_number.empty(), "--serial-number belongs to one maker: choose it with --device.");
+  require(maker || !options.device_index, "--device-index belongs to one maker: choose it with --device.");
+  require(maker || !options.initialises, "--initialise belongs to one maker: choose it with --device.");
   require(options.device != "simulated" || options.workspace_scale == 1.0,
           "--workspace-scale belongs to a real device: choose one with --device.");
   require(within(options.seconds, 0.01, 3600.0), "--seconds must be between 0.01 and 3600.");
+  if (maker) {
+    const std::string reason = reason_against(*maker, choice_of(options));
+    require(reason.empty(), "--device " + reason);
+  }
   require(
       options.rate * options.seconds <= maximum_ticks,
       "--rate times --seconds is more than a million ticks: every tick is kept in memory, so ask for fewer.");
@@ -41,6 +49,15 @@ void validate(const Options& options) {
 }
 
 }  // namespace
+
+DeviceChoice choice_of(const Options& options) {
+  return {.library = options.device_library,
+          .address = options.device_address,
+          .serial_number = options.serial_number,
+          .index = options.device_index,
+          .initialises = options.initialises,
+          .period = 1 / options.rate};
+}
 
 CommandLine read_command_line(int argument_count, const char* const* arguments) {
   CommandLine result;
@@ -68,10 +85,16 @@ CommandLine read_command_line(int argument_count, const char* const* arguments) 
   app.add_option("--seconds", options.seconds, "a scene")->capture_default_str();
   app.add_option("--seed", options.seed, "of everything random")->capture_default_str();
   app.add_option("--device", options.device, "what to render to; auto takes the first that answers")
-      ->check(CLI::IsMember({"auto", "simulated", "openhaptics", "forcedimension", "virtuose"}))
+      ->check(CLI::IsMember({"auto", "simulated", "openhaptics", "forcedimension", "virtuose", "haply"}))
       ->capture_default_str();
   app.add_option("--device-library", options.device_library,
                  "file of the maker's library (default: its usual names)");
+  app.add_option("--device-address", options.device_address,
+                 "where it is: a name of OpenHaptics, host#port of Haption, host:port of Haply's service");
+  app.add_option("--serial-number", options.serial_number, "of one of several devices of Force Dimension or Haply");
+  app.add_option("--device-index", options.device_index, "of one of several, from 0 (default: the first)");
+  app.add_flag("--initialise", options.initialises,
+               "lets a device of Force Dimension that is not calibrated move by itself: hands off");
   app.add_option("--workspace-scale", options.workspace_scale, "metres of the scene a metre of a real device")
       ->capture_default_str();
   app.add_flag("--list-devices", options.list_devices,

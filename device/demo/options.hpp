@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "feeler/core/scalar.hpp"
+#include "feeler/device/device_catalogue.hpp"
 
 namespace feeler::demo {
 
@@ -25,12 +26,19 @@ struct Options {
   std::uint32_t seed = 1;                       ///< of everything random
   std::string device = "simulated";             ///< or auto, or the name of a maker
   std::string device_library;                   ///< file of the maker's library; empty for its usual names
+  std::string device_address;                   ///< of the maker's device or service; empty for the usual one
+  std::string serial_number;                    ///< of one of several devices of a maker; empty for the first
+  std::optional<int> device_index;              ///< of one of several, from 0
+  bool initialises = false;                     ///< a device that is not calibrated may move by itself
   double workspace_scale = 1.0;                 ///< metres of the scene a metre of the device
   bool record = false;                          ///< the session, into the report
   bool list_devices = false;                    ///< and nothing else
   std::optional<std::filesystem::path> replay;  ///< a recorded session, and nothing else
   std::optional<std::filesystem::path> out;     ///< unset: `out/`, a folder a scene in it
 };
+
+/// Which real device they ask for.
+DeviceChoice choice_of(const Options& options);
 
 /// What the command line comes to: options to run with, or an exit code where it only asked for help.
 struct CommandLine {

@@ -56,7 +56,9 @@ std::unique_ptr<Device> open_real_device(const SessionSettings& settings) {
   std::string problems;
   for (const Maker maker : all_makers) {
     if (settings.device != "auto" && settings.device != name_of(maker)) continue;
-    auto device = make_device(maker, settings.device_library, 1.0 / settings.rate);
+    DeviceChoice choice = settings.choice;
+    choice.period = 1.0 / settings.rate;
+    auto device = make_device(maker, choice);
     const OpenResult opened = device->open();
     if (opened) return device;
     if (settings.device != "auto") throw BadInput(opened.problem);

@@ -5,6 +5,7 @@
 #include <functional>
 #include <string>
 
+#include "feeler/device/device_catalogue.hpp"
 #include "feeler/device/simulated_phantom.hpp"
 #include "recording.hpp"
 #include "scenes/scene.hpp"
@@ -17,7 +18,7 @@ struct SessionSettings {
   double seconds = 8.0;
   std::uint32_t seed = 1;            ///< of the tremor of the simulated hand
   std::string device = "simulated";  ///< or auto, or the name of a maker
-  std::string device_library = {};   ///< of the maker; empty for its usual names
+  DeviceChoice choice = {};          ///< of the maker; empty for the usual device
   double workspace_scale = 1.0;      ///< of a real device
   bool record = false;               ///< keep what passed between device and renderer
 };

@@ -246,4 +246,20 @@ DeviceSpecification virtuose_6d_desktop() {
   return device;
 }
 
+DeviceSpecification inverse3() {
+  DeviceSpecification device = force_only("Inverse3");
+  device.minimum_rate = 200;                  // confirmed: Isaac Lab and a ROS 2 node run it so
+  device.maximum_rate = 2000;                 // assumed; its maker says "multi-kHz"
+  device.maximum_force = 10;                  // confirmed (the ROS 2 node cuts there)
+  device.continuous_force = 2.5;              // assumed: a quarter
+  device.stiffness = 500;                     // assumed: its maker's "hello floor" has 1000, its Unity examples 300
+  device.workspace = {0.2, 0.2, 0.2};         // confirmed: its maker's examples stay in a sphere of 0.1 m
+  device.position_resolution = 0.02e-3;       // assumed
+  device.rotation_resolution = 0.1 * degree;  // assumed: inertial sensors
+  device.friction = 0.1;                      // assumed
+  device.apparent_mass = 0.15;                // assumed
+  device.damping = 0.5;                       // assumed: K T / 2 of its maker's K
+  return device;
+}
+
 }  // namespace feeler

@@ -116,6 +116,15 @@ refuses 'no triangles' 'triangles' --scene terrain --triangles 0
 refuses 'scale of zero' 'scale' --scene file --object tetrahedron.off --scale 0
 refuses 'unknown device' 'device' --device ouija
 refuses 'library of no maker' 'maker' --device-library libHD.so
+refuses 'serial number of no maker' 'maker' --serial-number 5
+refuses 'index of no maker' 'maker' --device auto --device-index 1
+refuses 'address of no maker' 'maker' --device-address localhost:10001
+refuses 'calibration of no maker' 'maker' --initialise
+refuses 'serial number that is none' 'serial number' --device forcedimension --serial-number abc
+refuses 'serial number of a maker without' 'address' --device virtuose --serial-number 5
+refuses 'address that is none' 'no address' --device haply --device-address localhost
+refuses 'library of a service' 'no library' --device haply --device-library libHD.so
+refuses 'service that does not run' 'no Inverse Service answers' --device haply --device-address localhost:1
 refuses 'library that is missing' 'libHD.so: cannot open shared object file' --device openhaptics --device-library /nowhere/libHD.so
 refuses 'scale of a simulated workspace' 'device' --workspace-scale 2
 refuses 'workspace of no size' 'workspace-scale' --device auto --workspace-scale 0

@@ -20,7 +20,7 @@ fail() {
 
 "$demo" --list-devices >list.txt 2>error.txt || fail "the list ends with exit code $?: $(cat error.txt)"
 [ ! -s error.txt ] || fail "the list has words on the error stream: $(cat error.txt)"
-for device in openhaptics forcedimension virtuose simulated; do
+for device in openhaptics forcedimension virtuose haply simulated; do
   [ "$(grep -c "^$device: " list.txt)" -eq 1 ] || fail "the list does not say one thing of $device"
 done
 grep '^[a-z]*: none' list.txt | grep -vq 'install\|check\|calibrate\|switch' && fail "the list leaves a user helpless: $(cat list.txt)"
@@ -42,6 +42,30 @@ for pair in openhaptics:open_haptics forcedimension:force_dimension virtuose:vir
   [ "$(wc -l <error.txt)" -eq 1 ] || fail "$device: not one sentence: $(cat error.txt)"
   [ ! -e old ] || fail "$device: a report of nothing"
 done
+
+# The second of two, by its serial number and by its index; the stand-in says so in its sentence, because it has one device only.
+for choice in '--serial-number 1004' '--device-index 4'; do
+  # shellcheck disable=SC2086  # two words
+  "$demo" --scene cavity --device forcedimension --device-library "$stand_ins/libforce_dimension_stand_in.so" $choice --out absent >output.txt 2>error.txt
+  [ $? -eq 2 ] || fail "a device that is not there is found by $choice"
+  grep -q "${choice#* }" error.txt || fail "of $choice it says $(cat error.txt)"
+done
+"$demo" --scene cavity --seconds 0.2 --device forcedimension --device-library "$stand_ins/libforce_dimension_stand_in.so" --serial-number 1003 --out chosen \
+  >output.txt 2>error.txt || fail "the device of the serial number 1003: $(cat error.txt)"
+
+# An Inverse Service of Haply.
+if [ -x "$stand_ins/haply-stand-in" ]; then
+  "$stand_ins/haply-stand-in" "$scratch/address" &
+  service=$!
+  for _ in $(seq 50); do [ -e address ] || sleep 0.1; done
+  "$demo" --scene cavity --seconds 0.2 --device haply --device-address "$(cat address)" --serial-number 049D --out haply >output.txt 2>error.txt ||
+    fail "haply: exit code $?: $(cat error.txt)"
+  grep -q 'simulated' haply/scene.json && fail 'haply: the report calls it simulated'
+  "$demo" --scene cavity --device haply --device-address "$(cat address)" --serial-number FFFF --out absent >output.txt 2>error.txt
+  [ $? -eq 2 ] || fail 'haply: an arm that is not there is found'
+  grep -q 'knows 049D' error.txt || fail "haply: of an arm that is not there it says $(cat error.txt)"
+  kill "$service"
+fi
 
 # A tick of another session is found.
 cp openhaptics/session.feeler changed.feeler

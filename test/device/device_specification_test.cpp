@@ -15,7 +15,7 @@ BOOST_AUTO_TEST_CASE(every_preset_has_figures_that_agree_with_each_other) {
        {feeler::phantom_premium_3_0_6dof(), feeler::phantom_premium_1_5_6dof(),
         feeler::phantom_premium_1_5_high_force_6dof(), feeler::touch(), feeler::touch_x(), feeler::omega_3(),
         feeler::omega_6(), feeler::omega_7(), feeler::sigma_7(), feeler::lambda_7(), feeler::delta_3(),
-        feeler::falcon(), feeler::virtuose_6d(), feeler::virtuose_6d_desktop()}) {
+        feeler::falcon(), feeler::virtuose_6d(), feeler::virtuose_6d_desktop(), feeler::inverse3()}) {
     BOOST_TEST_CONTEXT(device.name) {
       BOOST_TEST(names.insert(device.name).second);
       BOOST_TEST(device.minimum_rate > 0);

@@ -65,4 +65,6 @@ DeviceSpecification falcon();    ///< Novint Falcon; senses and pushes positions
 DeviceSpecification virtuose_6d();
 DeviceSpecification virtuose_6d_desktop();
 
+DeviceSpecification inverse3();  ///< Haply Inverse3 with a VerseGrip; force-only
+
 }  // namespace feeler
