@@ -165,7 +165,8 @@ void ServoLoop::loop() {
          (settings_.tick_limit == 0 || tick.index < settings_.tick_limit)) {
     if (waits) clock_.sleep_until(deadline);
     const std::int64_t start = clock_.now();
-    if (waits) report_.wake_up_latency.add(start - deadline);
+    tick.late = waits ? start - deadline : 0;
+    if (waits) report_.wake_up_latency.add(tick.late);
     tick.time = double((waits ? deadline : start) - first) * 1e-9;
     goes_on = callback_(tick);
     const std::int64_t end = clock_.now();

@@ -108,9 +108,10 @@ BOOST_AUTO_TEST_CASE(a_tick_that_ends_on_a_later_deadline_is_on_time_for_that_on
 
 BOOST_AUTO_TEST_CASE(late_wake_ups_are_latency_and_miss_only_the_deadlines_they_pass) {
   feeler::ServoReport report;
-  run_script({0, 0, 0}, report, 300'000);
+  const auto told = run_script({0, 0, 0}, report, 300'000);
   BOOST_TEST(report.missed == 0);
   BOOST_TEST(report.wake_up_latency.minimum() == 300'000);
+  for (const ServoTick& tick : told) BOOST_TEST(tick.late == 300'000);
   BOOST_TEST(report.wake_up_latency.maximum() == 300'000);
   run_script({0, 0, 0}, report, 5 * millisecond / 2);
   BOOST_TEST(report.missed == 6);  // two a tick

@@ -37,6 +37,7 @@ struct ServoTick {
   std::int64_t index = 0;   ///< 0, 1, 2, …
   std::int64_t missed = 0;  ///< deadlines skipped just before this one
   double time = 0;          ///< of its deadline, since the first one [s]; without waiting, of its start
+  std::int64_t late = 0;    ///< from its deadline to its start [ns]; 0 without waiting
 };
 
 /// Runs a callback at a rate, with absolute deadlines, on a thread of its own.
