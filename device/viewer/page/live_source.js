@@ -1,0 +1,72 @@
+// The live end of the wire: a WebSocket that comes back by itself.
+import { readMessage } from './protocol.js';
+
+const patience = [250, 500, 1000, 2000];  // between attempts [ms]
+
+/** Hands on what the server tells, and tells it what the user does. Listeners: hello, stage, mesh, frame, sentence, connection. */
+export class LiveSource {
+  constructor(listeners) {
+    this.listeners = listeners;
+    this.attempt = 0;
+    this.stage = 0;
+    this.connect();
+  }
+
+  connect() {
+    const url = new URL('/live', location.href);
+    url.protocol = 'ws:';
+    url.search = location.search;
+    this.socket = new WebSocket(url);
+    this.socket.binaryType = 'arraybuffer';
+    this.socket.onopen = () => {
+      this.attempt = 0;
+      this.listeners.connection('open');
+    };
+    this.socket.onmessage = ({ data }) => this.read(data);
+    this.socket.onclose = () => this.comeBack();
+  }
+
+  close() {
+    this.socket.onclose = null;
+    this.socket.close();
+  }
+
+  comeBack() {
+    this.listeners.connection('lost');
+    const wait = patience[Math.min(this.attempt++, patience.length - 1)];
+    setTimeout(() => this.connect(), wait);
+  }
+
+  read(data) {
+    if (typeof data === 'string') return this.readText(JSON.parse(data));
+    try {
+      const message = readMessage(data);
+      this.listeners[message.kind](message);
+    } catch (problem) {
+      this.listeners.sentence('refusal', problem.message);
+    }
+  }
+
+  readText(message) {
+    if (message.type === 'stage') this.stage = message.stage;
+    if (message.type === 'hello' || message.type === 'stage') this.listeners[message.type](message);
+    else this.listeners.sentence(message.type, message.text ?? message.reason);
+  }
+
+  send(message) {
+    if (this.socket.readyState === WebSocket.OPEN) this.socket.send(JSON.stringify(message));
+  }
+  /** The hand to a pose: position [m] and quaternion x, y, z, w. */
+  moveHand({ position, quaternion: [x, y, z, w] }) {
+    this.send({ type: 'hand', stage: this.stage, position, orientation: [w, x, y, z] });
+  }
+  stopHand() {
+    this.send({ type: 'still', stage: this.stage });
+  }
+  playMotion() {
+    this.send({ type: 'motion', stage: this.stage });
+  }
+  choose(request) {
+    this.send({ type: 'scene', ...request });
+  }
+}

@@ -1,0 +1,301 @@
+// The page: a live view of the servo loop, or recordings that need no server.
+import { GamepadHand } from './gamepad.js';
+import { HeldPose, PointerHand } from './hand.js';
+import { KeyboardHand } from './keyboard.js';
+import { LiveSource } from './live_source.js';
+import { palettes } from './palette.js';
+import { Pane } from './pane.js';
+import { defaultLook, markScene, sceneLooks, showGallery, showLook, showSettings } from './panel.js';
+import { Player } from './player.js';
+import { flags, sampleIndex, sampleWords } from './protocol.js';
+import { readRecording, writeRecording } from './recording.js';
+import { csvOf, download, pngOf } from './save.js';
+import { countTicks, Strips } from './strips.js';
+import { Timeline } from './timeline.js';
+
+const $ = (id) => document.getElementById(id);
+const stripPeriod = 80;  // between drawings of the strips [ms]
+
+class Page {
+  constructor() {
+    this.timeline = new Timeline();
+    this.panes = [new Pane($('first'), this.timeline)];
+    this.strips = new Strips($('strips'));
+    this.recordings = [];
+    this.isDirty = true;
+    this.lastStrips = 0;
+    this.frameStamps = [];
+    this.setTheme(localStorageValue('theme') ?? (matchMedia('(prefers-color-scheme: dark)').matches ? 'dark' : 'light'));
+    this.listen();
+    requestAnimationFrame(() => this.draw());
+  }
+
+  get view() {
+    return this.panes[0].view;
+  }
+
+  listen() {
+    $('theme').onclick = () => this.setTheme(this.theme === 'dark' ? 'light' : 'dark');
+    $('help').onclick = () => this.showHelp($('help-text').hidden);
+    $('help-close').onclick = () => this.showHelp(false);
+    $('save-png').onclick = () => this.savePicture();
+    $('save-csv').onclick = () => download(this.fileName('csv'), new Blob([csvOf(this.timeline)], { type: 'text/csv' }));
+    $('save-recording').onclick = () => this.saveRecording();
+    $('open-recording').onchange = (event) => this.openFiles([...event.target.files]);
+    $('window').onchange = (event) => {
+      this.strips.window = Number(event.target.value);
+      this.lastStrips = 0;
+    };
+    this.strips.onPick = (time) => this.player.pauseAt(time);
+    addEventListener('dragover', (event) => event.preventDefault());
+    addEventListener('drop', (event) => {
+      event.preventDefault();
+      this.openFiles([...event.dataTransfer.files]);
+    });
+    for (const pane of this.panes) pane.view.changed = () => (this.isDirty = true);
+  }
+
+  showHelp(isShown) {
+    $('help-text').hidden = !isShown;
+    $('help').setAttribute('aria-expanded', String(isShown));
+  }
+
+  setTheme(name) {
+    this.theme = name;
+    document.documentElement.dataset.theme = name;
+    keepLocally('theme', name);
+    for (const pane of this.panes) pane.view.setTheme(name);
+    this.lastStrips = 0;
+    this.isDirty = true;
+  }
+
+  /** A sentence that goes by itself, unless it is asked to stay. */
+  say(text, stays = false) {
+    clearTimeout(this.sentenceTimer);
+    $('sentence').textContent = text;
+    $('sentence').hidden = !text;
+    if (text && !stays) this.sentenceTimer = setTimeout(() => ($('sentence').hidden = true), 6000);
+  }
+
+  makePlayer(isReplay) {
+    const elements = Object.fromEntries(['pause', 'live', 'back', 'forth', 'clock', 'speed'].map((id) => [id, $(id)]));
+    this.player = new Player(this.timeline, { ...elements, slider: $('time') }, isReplay);
+    this.player.onChange = () => {
+      this.lastStrips = 0;
+      this.showMoment();
+    };
+  }
+
+  // Live
+
+  goLive() {
+    this.makePlayer(false);
+    this.source = new LiveSource({
+      hello: (hello) => this.hello(hello), stage: (stage) => this.setStage(stage), mesh: (mesh) => this.setMesh(mesh),
+      frame: (frame) => this.addFrame(frame), sentence: (_, text) => this.say(text), connection: (state) => this.showConnection(state),
+    });
+    const held = new HeldPose(this.view, this.source);
+    const pointer = new PointerHand(held);
+    this.hands = [pointer, new KeyboardHand(held, this.view.canvas), new GamepadHand(held)];
+    $('finger-turns').onclick = () => {
+      pointer.turns = !pointer.turns;
+      $('finger-turns').setAttribute('aria-pressed', String(pointer.turns));
+    };
+    $('show').onclick = () => this.source.playMotion();
+    $('still').onclick = () => this.source.stopHand();
+    if (localStorageValue('helped') === null) this.showHelp(true);
+    keepLocally('helped', 'yes');
+  }
+
+  hello(hello) {
+    this.greeting = hello;
+    this.timeline.clear();
+    showGallery($('gallery'), hello.gallery, (request) => this.choose(request));
+  }
+
+  choose(request) {
+    this.say('Building the scene …', true);
+    this.source.choose(request);
+  }
+
+  setStage(stage) {
+    this.say('');
+    const isSameScene = this.stage?.scene === stage.scene;
+    this.stage = stage;
+    this.panes[0].setStage(stage);
+    document.title = `Feeler: ${stage.title}`;
+    markScene($('gallery'), stage.scene);
+    showSettings($('settings'), this.greeting, stage, (request) => this.choose(request));
+    if (!isSameScene) this.setLook({ ...defaultLook, ...sceneLooks[stage.scene] });
+    this.player.goLive();
+  }
+
+  setMesh(mesh) {
+    if (mesh.stage !== this.stage.stage) return;
+    this.meshBuffer = mesh.buffer;
+    this.view.setMesh(mesh);
+  }
+
+  addFrame(frame) {
+    const last = this.timeline.latest;
+    this.noteEvents(last, frame);
+    this.timeline.add(frame);
+    if (this.player.isLive) this.showMoment();
+  }
+
+  noteEvents(last, frame) {
+    const types = (f) => f.contacts.map((c) => c.type).join();
+    if (last && last.stage === frame.stage && types(last) !== types(frame)) this.timeline.addEvent(frame.time, 'switch');
+    for (let at = 0; at < frame.samples.length; at += sampleWords) {
+      const word = frame.samples[at + sampleIndex.flags];
+      if (word & flags.folded) this.timeline.addEvent(frame.samples[at], 'fold');
+      if (!(word & flags.converged)) this.timeline.addEvent(frame.samples[at], 'budget');
+    }
+  }
+
+  showConnection(state) {
+    $('connection').className = state;
+    $('connection').querySelector('.text').textContent = state === 'open' ? 'connected' : 'connection lost: trying again …';
+  }
+
+  // Replay
+
+  /** @param recordings  one, or two to be seen side by side */
+  replay(recordings) {
+    this.source?.close();
+    this.source = null;
+    document.body.classList.add('replay');
+    this.recordings = recordings.slice(0, 2);
+    this.timeline = this.recordings[0].timeline;
+    if (this.recordings.length === 2 && this.panes.length === 1) this.addPane();
+    $('second').hidden = this.recordings.length < 2;
+    this.makePlayer(true);
+    this.recordings.forEach(({ stage, mesh, timeline }, i) => {
+      const pane = this.panes[i];
+      pane.timeline = timeline;
+      pane.setStage(stage);
+      pane.view.setMesh(mesh);
+    });
+    this.stage = this.recordings[0].stage;
+    document.title = `Feeler: ${this.stage.title}`;
+    $('connection').className = 'open';
+    $('connection').querySelector('.text').textContent = this.recordings.length === 2 ? 'two recordings' : 'a recording';
+    this.setLook({ ...defaultLook, ...sceneLooks[this.stage.scene] });
+    this.strips.window = Math.min(10, Math.max(1, this.timeline.end - this.timeline.begin));
+    this.player.seek(this.timeline.begin);
+    if (!matchMedia('(prefers-reduced-motion: reduce)').matches && document.body.dataset.autoplay) this.player.play(1);
+  }
+
+  addPane() {
+    const second = new Pane($('second'), this.recordings[1].timeline);
+    this.panes.push(second);
+    second.view.setTheme(this.theme);
+    const [a, b] = this.panes.map((pane) => pane.view);
+    const copy = (from, to) => {
+      to.camera.position.copy(from.camera.position);
+      to.camera.quaternion.copy(from.camera.quaternion);
+      to.controls.target.copy(from.controls.target);
+      this.isDirty = true;
+    };
+    a.changed = b.changed = () => (this.isDirty = true);
+    a.controls.addEventListener('change', () => copy(a, b));
+    b.controls.addEventListener('change', () => copy(b, a));
+  }
+
+  async openFiles(files) {
+    try {
+      const opened = [];
+      for (const file of files) opened.push(readRecording(await file.text()));
+      if (opened.length === 1 && this.recordings.length === 1) opened.unshift(this.recordings[0]);
+      if (opened.length > 0) this.replay(opened);
+    } catch (problem) {
+      this.say(problem.message);
+    }
+  }
+
+  // Both
+
+  setLook(values) {
+    showLook($('look'), values, (changed) => this.applyLook(changed));
+    $('look').elements.reset.onclick = () => {
+      for (const pane of this.panes) pane.view.resetCamera();
+      this.isDirty = true;
+    };
+    this.applyLook(values);
+  }
+  applyLook(values) {
+    this.look = values;
+    for (const pane of this.panes) pane.setLook(values);
+    this.isDirty = true;
+  }
+
+  showMoment() {
+    this.panes[0].show(this.player.frameIndex);
+    const second = this.panes[1];
+    if (second && !$('second').hidden) second.show(second.timeline.frameIndexAt(this.player.cursor));
+  }
+
+  draw() {
+    this.player?.advance();
+    if (this.isDirty) {
+      this.isDirty = false;
+      for (const pane of this.panes) if (!pane.section.hidden) pane.draw();
+      this.frameStamps.push(performance.now());
+      if (this.frameStamps.length > 120) this.frameStamps.shift();
+    }
+    const now = performance.now();
+    if (this.player && now - this.lastStrips > stripPeriod && (this.player.isLive || this.lastStrips === 0)) {
+      this.lastStrips = now;
+      this.drawStrips();
+    }
+    requestAnimationFrame(() => this.draw());
+  }
+
+  drawStrips() {
+    const timelines = this.recordings.length > 0 ? this.recordings.map((recording) => recording.timeline) : [this.timeline];
+    this.strips.draw({ timelines, cursor: this.player.cursor, isLive: this.player.isLive, palette: palettes[this.theme] });
+    this.player.showTime();
+    const { ticks, missed, converged } = countTicks(this.timeline.samples, this.strips.begin, this.strips.end);
+    const lost = this.timeline.latest?.lost ? ` · ${this.timeline.latest.lost} samples lost` : '';
+    $('counts').textContent = `${ticks} ticks · ${missed} missed deadlines · ${ticks ? (100 * converged / ticks).toFixed(1) : '–'} % converged${lost}`;
+  }
+
+  fileName(ending) {
+    return `feeler-${this.stage?.scene ?? 'view'}.${ending}`;
+  }
+  async savePicture() {
+    this.panes[0].draw();
+    const canvases = [...document.querySelectorAll('#strips canvas')];
+    const palette = palettes[this.theme];
+    download(this.fileName('png'), await pngOf(this.view.canvas, canvases, palette, `${this.stage.title} · ${this.panes[0].parts.meta.textContent}`));
+  }
+  saveRecording() {
+    const mesh = this.meshBuffer ?? this.recordings[0]?.mesh.buffer;
+    if (!mesh) return this.say('There is nothing to save yet.');
+    return download(this.fileName('json'), new Blob([writeRecording(this.stage, mesh, this.timeline.frames)], { type: 'application/json' }));
+  }
+}
+
+// A page in a frame without an origin, as in a report, has no storage.
+function localStorageValue(key) {
+  try {
+    return localStorage.getItem(`feeler-${key}`);
+  } catch {
+    return null;
+  }
+}
+function keepLocally(key, value) {
+  try {
+    localStorage.setItem(`feeler-${key}`, value);
+  } catch { /* then it is asked again */ }
+}
+
+const page = new Page();
+window.feeler = page;  // for tests, and for the curious
+const inside = [...document.querySelectorAll('script.recording')];
+try {
+  if (inside.length > 0) page.replay(inside.map((script) => readRecording(script.textContent)));
+  else page.goLive();
+} catch (problem) {
+  page.say(problem.message, true);
+}

@@ -1,0 +1,80 @@
+// One picture with its words: a stage, its frames, and what is written over it.
+import { Vector3 } from 'three';
+import { countTypes, degrees, norm, withUnit } from './format.js';
+import { turnBetween } from './pose.js';
+import { StageView } from './stage_view.js';
+
+const axes = { x: [1, 0, 0], y: [0, 1, 0], z: [0, 0, 1] };
+
+export class Pane {
+  /** @param section  the element of the picture, with its parts */
+  constructor(section, timeline) {
+    this.section = section;
+    this.timeline = timeline;
+    this.parts = Object.fromEntries([...section.querySelectorAll('[data-part]')].map((part) => [part.dataset.part, part]));
+    this.view = new StageView(this.parts);
+  }
+
+  setStage(stage) {
+    this.stage = stage;
+    this.view.setStage(stage);
+    this.parts.title.textContent = stage.title;
+    this.parts.hint.textContent = stage.hint;
+    const variant = stage.variant || (stage.clearance === null ? '' : `clearance ${withUnit(stage.clearance, 'm')}`);
+    this.parts.meta.textContent =
+      `${variant} · ${stage.triangles.toLocaleString('en')} triangles · ${stage.stiffness} N/m · margin ${withUnit(stage.margin, 'm')} · ${stage.method}, ${stage.scalar}`;
+  }
+
+  show(index) {
+    const frame = this.timeline.frames[index];
+    if (!frame) return;
+    this.view.showFrame(frame, this.timeline.frames, index);
+    this.write(frame);
+  }
+
+  write(frame) {
+    const apart = Math.hypot(...frame.haptic.position.map((v, k) => v - frame.graphic.position[k]));
+    const types = countTypes(frame.contacts).map(([{ short }, count]) => (count > 1 ? `${count} ${short}` : short)).join(', ');
+    const rows = [
+      ['force', withUnit(norm(frame.force), 'N', 1e-4)], ['torque', withUnit(norm(frame.torque), 'N·m', 1e-6)], ['contacts', types || 'none'],
+      ['apart', `${withUnit(apart, 'm', 1e-7)}, ${degrees(turnBetween(frame.haptic, frame.graphic))}`], ['state', frame.status],
+    ];
+    this.parts.readings.replaceChildren(...rows.flatMap(([name, value]) => {
+      const dt = document.createElement('dt'), dd = document.createElement('dd');
+      dt.textContent = name;
+      dd.textContent = value;
+      return [dt, dd];
+    }));
+  }
+
+  setLook(values) {
+    this.look = values;
+    const { view } = this;
+    view.object.setLook(values.look);
+    view.contacts.visible = values.contacts;
+    view.arrows.visible = values.arrows;
+    view.trace.visible = values.trace;
+    view.follows = values.follow;
+    view.magnifies = values.magnify;
+    view.closeUp.field = values.field ? 10 ** values.field : null;
+    this.parts.closeUp.hidden = !values.magnify;
+    view.changed();
+  }
+
+  /** The half that hides the inside, seen from where the eye is now. */
+  cut() {
+    const { section, depth } = this.look ?? {};
+    const { object, camera } = this.view;
+    if (!section || section === 'none' || !object.halfSize) return object.setSection(null);
+    const toEye = camera.position.clone().sub(object.position);
+    const direction = section === 'eye' ? toEye.normalize() : new Vector3(...axes[section]);
+    if (direction.dot(toEye) < 0) direction.negate();
+    const reach = Math.abs(direction.x) * object.halfSize.x + Math.abs(direction.y) * object.halfSize.y + Math.abs(direction.z) * object.halfSize.z;
+    return object.setSection(direction.toArray(), -depth * reach);
+  }
+
+  draw() {
+    this.cut();
+    this.view.draw();
+  }
+}

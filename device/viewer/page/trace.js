@@ -1,0 +1,30 @@
+// The way of the tool's tip, of the last frames shown.
+import { Group, Vector3 } from 'three';
+import { FatLine, fatMaterial } from './fat_line.js';
+import { tipOf } from './pose.js';
+
+const seconds = 4;
+
+export class Trace extends Group {
+  constructor() {
+    super();
+    this.graphicMaterial = fatMaterial('#000', 2.5);
+    this.hapticMaterial = fatMaterial('#000', 1.5);
+    this.graphic = new FatLine(this.graphicMaterial);
+    this.haptic = new FatLine(this.hapticMaterial);
+    this.add(this.graphic, this.haptic);
+  }
+
+  /** @param index  of the frame on show in the timeline's list */
+  show(frames, index, tip, stage) {
+    if (!this.visible || index < 0) return;
+    const points = { graphic: [], haptic: [] };
+    const local = new Vector3(...tip);
+    for (let i = index; i >= 0 && frames[i].time > frames[index].time - seconds && frames[i].stage === stage; i -= 2) {
+      points.graphic.push(...tipOf(frames[i].graphic, local).toArray());
+      points.haptic.push(...tipOf(frames[i].haptic, local).toArray());
+    }
+    this.graphic.setPoints(points.graphic);
+    this.haptic.setPoints(points.haptic);
+  }
+}
