@@ -7,6 +7,8 @@
 #include "bad_input.hpp"
 #include "feeler/device/device_catalogue.hpp"
 #include "feeler/device/session_recorder.hpp"
+#include "live/live_view.hpp"
+#include "live/replay_view.hpp"
 #include "options.hpp"
 #include "report.hpp"
 #include "scene_choice.hpp"
@@ -91,7 +93,11 @@ int run(int argument_count, const char* const* arguments) {
   const auto [options, exit_code] = read_command_line(argument_count, arguments);
   if (exit_code) return *exit_code;
   if (options.list_devices) return list_all_devices();
-  if (options.replay) return replay_session(*options.replay);
+  if (!options.replay.empty() && !options.views) return replay_session(options.replay.front());
+  if (options.views) {
+    options.replay.empty() ? run_live_view(options) : run_replay_view(options);
+    return success;
+  }
   int worst = success;
   for (const ChosenScene& chosen : choose_scenes(options)) {
     const bool is_alone = options.scene.has_value();
@@ -99,6 +105,7 @@ int run(int argument_count, const char* const* arguments) {
     const int code = run_scene(chosen, options, is_alone && options.out ? out : out / chosen.scene.name);
     worst = std::max(worst, code);
   }
+  std::printf("Move the tool yourself: ./run demo --view\n");
   return worst;
 }
 

@@ -40,9 +40,18 @@ void validate(const Options& options) {
     require(reason.empty(), "--device " + reason);
   }
   require(
-      options.rate * options.seconds <= maximum_ticks,
+      options.views || options.rate * options.seconds <= maximum_ticks,
       "--rate times --seconds is more than a million ticks: every tick is kept in memory, so ask for fewer.");
   require(!options.start || options.start->allFinite(), "--start must be three finite numbers, in metres.");
+  const bool is_shown_only = options.scene && (*options.scene == "spline" || *options.scene == "shaft" ||
+                                               *options.scene == "peg" || *options.scene == "tunnel");
+  require(options.views || !is_shown_only,
+          "The scene " + options.scene.value_or("") + " has no report: see it with --view.");
+  require(!options.views || options.device == "simulated",
+          "--view shows the simulated device: leave --device out.");
+  require(!options.views || !(options.record || options.out),
+          "--view writes no report: leave --record and --out out.");
+  require(options.views || options.replay.size() < 2, "--replay takes two files with --view only.");
   const bool has_file = options.object || options.tool || options.start;
   require(!has_file || !options.scene || *options.scene == "file",
           "--object, --tool and --start belong to --scene file: leave them out or choose that scene.");
@@ -70,7 +79,8 @@ CommandLine read_command_line(int argument_count, const char* const* arguments) 
       "feeler-demo");
   app.set_version_flag("--version", FEELER_VERSION);
   app.add_option("--scene", options.scene, "default: cavity, steps and a real mesh, one after the other")
-      ->check(CLI::IsMember({"cavity", "steps", "terrain", "plate", "sulcus", "file"}));
+      ->check(CLI::IsMember(
+          {"cavity", "steps", "terrain", "plate", "sulcus", "file", "spline", "shaft", "peg", "tunnel"}));
   app.add_option("--object", options.object, "mesh file of the object: STL, OBJ, PLY or OFF");
   app.add_option("--tool", options.tool,
                  "mesh file of the tool; its convex hull is taken (default: a slender probe)");
@@ -102,7 +112,17 @@ CommandLine read_command_line(int argument_count, const char* const* arguments) 
   app.add_flag("--record", options.record,
                "every tick between device and renderer, as session.feeler in the report");
   app.add_option("--replay", options.replay,
-                 "run a recorded session through the force safety again, and end");
+                 "run a recorded session through the force safety again, and end; with --view, show one or "
+                 "two reports")
+      ->expected(1, 2);
+  app.add_flag("--view", options.views,
+               "serve a page that shows the scenes live and moves their hand, until Ctrl-C");
+  app.add_option("--port", options.port, "of the live view (default: 4280, or any that is free)")
+      ->needs("--view");
+  app.add_option("--listen", options.listen,
+                 "IP address at which others reach the live view, with a token (default: this machine alone)")
+      ->needs("--view");
+  app.add_flag("--play", options.plays, "the live view begins with the motion of its scene")->needs("--view");
   app.add_option("--out", options.out, "folder of the report (default: out/, a folder a scene in it)");
   try {
     app.parse(argument_count, arguments);
@@ -112,6 +132,8 @@ CommandLine read_command_line(int argument_count, const char* const* arguments) 
   } catch (const CLI::ParseError& error) {
     throw BadInput(std::string(error.what()) + ": see feeler-demo --help.");
   }
+  options.is_clearance_given = app.count("--clearance") > 0;
+  if (app.count("--seconds") > 0) options.view_seconds = options.seconds;
   if (!start.empty()) options.start = Vector3<double>(start[0], start[1], start[2]);
   if (options.object && !options.scene) options.scene = "file";
   validate(options);

@@ -20,6 +20,7 @@ struct Options {
   double scale = 1.0;                           ///< metres a unit of both files
   std::optional<Vector3<double>> start;         ///< of the scene `file`: where the tool begins [m]
   double clearance = 1e-3;                      ///< of the cavity [m]
+  bool is_clearance_given = false;              ///< by the user
   int triangles = 10082;                        ///< of the terrain, about
   double rate = 1000.0;                         ///< of the servo loop [Hz]
   double seconds = 8.0;                         ///< a scene
@@ -33,8 +34,13 @@ struct Options {
   double workspace_scale = 1.0;                 ///< metres of the scene a metre of the device
   bool record = false;                          ///< the session, into the report
   bool list_devices = false;                    ///< and nothing else
-  std::optional<std::filesystem::path> replay;  ///< a recorded session, and nothing else
-  std::optional<std::filesystem::path> out;     ///< unset: `out/`, a folder a scene in it
+  std::vector<std::filesystem::path> replay;  ///< a recorded session and nothing else, or recordings to view
+  bool views = false;                         ///< the live view, and no report
+  std::optional<unsigned short> port;  ///< of the live view; unset for the usual one, or any that is free
+  std::optional<std::string> listen;   ///< address of the live view, other than this machine's own
+  bool plays = false;                  ///< the live view begins with the motion of its scene
+  std::optional<double> view_seconds;  ///< of the live view; unset until it is interrupted
+  std::optional<std::filesystem::path> out;  ///< unset: `out/`, a folder a scene in it
 };
 
 /// Which real device they ask for.

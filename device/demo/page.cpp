@@ -1,11 +1,11 @@
 // The report as HTML: verdict, table, figures, settings, and how to judge.
 #include "page.hpp"
 
-#include <cstdint>
 #include <fstream>
 #include <iterator>
 #include <string>
 
+#include "base64.hpp"
 #include "text_file.hpp"
 
 namespace feeler::demo {
@@ -26,6 +26,8 @@ td:first-child { color: #5b6670; width: 15rem; } td:last-child { font-variant-nu
 figure { margin: 1.6rem 0; } figure svg, figure img { width: 100%; height: auto; display: block; }
 figcaption { color: #5b6670; font-size: .92rem; margin-top: .3rem; }
 pre { background: #f4f5f6; padding: 1rem; overflow-x: auto; font-size: .82rem; line-height: 1.4; border-radius: 6px; }
+iframe { width: 100%; height: 720px; border: 1px solid #d5dbe1; border-radius: 6px; }
+button { font: inherit; padding: .35rem .9rem; border: 1px solid #2f6db5; border-radius: 6px; background: #2f6db5; color: #fff; cursor: pointer; }
 code { font-size: .92em; } summary { cursor: pointer; color: #2f6db5; }
 </style>
 )";
@@ -59,21 +61,6 @@ std::string escaped(const std::string& text) {
   return result;
 }
 
-std::string base64(const std::string& bytes) {
-  constexpr const char* digits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-  std::string result;
-  for (std::size_t i = 0; i < bytes.size(); i += 3) {
-    std::uint32_t group = 0;
-    for (std::size_t k = 0; k < 3; ++k) {
-      group = group << 8 | (i + k < bytes.size() ? std::uint8_t(bytes[i + k]) : 0u);
-    }
-    for (std::size_t k = 0; k < 4; ++k) {
-      result += i + k > bytes.size() ? '=' : digits[group >> (18 - 6 * k) & 63u];
-    }
-  }
-  return result;
-}
-
 /// A drawing where it is small, a picture where it is not: a browser takes seconds for a hundred thousand
 /// polygons.
 std::string figure_html(const std::filesystem::path& folder, const Figure& figure) {
@@ -87,10 +74,35 @@ std::string figure_html(const std::filesystem::path& folder, const Figure& figur
   return start == std::string::npos ? std::string() : drawing.substr(start);
 }
 
+std::string as_attribute(const std::string& text) {
+  std::string result;
+  result.reserve(text.size() + text.size() / 16);
+  for (const char c : text) {
+    if (c == '&')
+      result += "&amp;";
+    else if (c == '"')
+      result += "&quot;";
+    else
+      result += c;
+  }
+  return result;
+}
+
+/// The viewer with the run inside, in a frame that is filled when somebody wants it.
+std::string player_html(const std::string& player) {
+  return R"(<h2>Play it</h2>
+<p><button type="button" onclick="const f = document.getElementById('player'); f.srcdoc = f.dataset.page; f.hidden = false; this.hidden = true">Open
+the run in this page</button> Drag to look around, and scrub through the time. The same in a window of its own, or two runs side by side:
+<code>feeler-demo --replay FOLDER [FOLDER] --view</code>.</p>
+<iframe id="player" title="The run" hidden data-page=")" +
+         as_attribute(player) + "\"></iframe>\n";
+}
+
 }  // namespace
 
 void write_page(const std::filesystem::path& file, const std::filesystem::path& folder,
-                const scenes::Scene& scene, const Summary& summary, const std::vector<Figure>& figures) {
+                const scenes::Scene& scene, const Summary& summary, const std::vector<Figure>& figures,
+                const std::string& player) {
   TextFile text(file);
   text.write(head);
   text.write("<title>Feeler: " + escaped(scene.name) + "</title></head><body><main>\n<h1>" +
@@ -104,6 +116,7 @@ void write_page(const std::filesystem::path& file, const std::filesystem::path& 
     text.write("<tr><td>" + escaped(name) + "</td><td>" + escaped(value) + "</td></tr>\n");
   }
   text.write("</table>\n");
+  if (!player.empty()) text.write(player_html(player));
   if (figures.empty()) text.write("<p>No figures: gnuplot was not found when this report was written.</p>\n");
   for (const Figure& figure : figures) {
     text.write("<figure>" + figure_html(folder, figure) + "<figcaption>" + escaped(figure.caption) +

@@ -1,4 +1,4 @@
-// Another program, run to its end.
+// Another program, run to its end or left to itself.
 #pragma once
 
 #include <filesystem>
@@ -10,5 +10,8 @@ namespace feeler::demo {
 /// Runs a program of the search path in a folder, with its output thrown away.
 /// @return its exit code, or 127 where it cannot be run
 int run_program(const std::filesystem::path& folder, const std::vector<std::string>& command);
+
+/// Starts a program of the search path and does not wait for it; nothing happens where it cannot be run.
+void start_program(const std::vector<std::string>& command);
 
 }  // namespace feeler::demo

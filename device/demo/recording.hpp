@@ -24,8 +24,10 @@ struct TickRecord {
   int rows = 0;
   int iterations = 0;
   bool converged = false;
-  double microseconds = 0.0;  ///< of the renderer's `update` alone
-  std::size_t way_end = 0;    ///< in `Recording::way`, one past the graphic pose of this tick
+  double microseconds = 0.0;       ///< of the renderer's `update` alone
+  double late_microseconds = 0.0;  ///< from the deadline to the start of the tick
+  int missed = 0;                  ///< deadlines skipped just before it
+  std::size_t way_end = 0;         ///< in `Recording::way`, one past the graphic pose of this tick
 };
 
 /// A run: its ticks, the way of the tool, and what the servo loop says about itself.

@@ -11,6 +11,7 @@
 #include "bad_input.hpp"
 #include "build_information.hpp"
 #include "feeler/core/version.hpp"
+#include "live/report_player.hpp"
 #include "off_file.hpp"
 #include "page.hpp"
 #include "plots.hpp"
@@ -71,6 +72,18 @@ void write_ticks(const std::filesystem::path& file, const std::vector<TickRecord
                t.z(), tick.contacts, tick.rows, tick.iterations, int(tick.converged), tick.microseconds);
   }
   text.close();
+}
+
+/// Writes the recording that the viewer plays. @return the page that plays it; empty where there is no
+/// viewer, or where it would be too large
+std::string write_player(const std::filesystem::path& file, const Run& run) {
+  constexpr std::size_t large = 12'000'000;  // a browser takes seconds for it
+  const std::optional<std::string> recording = player_recording(run.chosen.scene, run.recording);
+  if (!recording) return {};
+  TextFile text(file);
+  text.write(*recording);
+  text.close();
+  return recording->size() > large ? std::string() : player_page({*recording});
 }
 
 std::string processor_name() {
@@ -248,7 +261,8 @@ bool write_report(const std::filesystem::path& folder, const Run& run) {
   write_path(folder / "path.csv", run.recording);
   write_scene(folder / "scene.json", run);
   const std::vector<Figure> figures = draw_figures(folder, scene, run.recording.ticks, run.summary);
-  write_page(folder / "report.html", folder, scene, run.summary, figures);
+  write_page(folder / "report.html", folder, scene, run.summary, figures,
+             write_player(folder / "replay.json", run));
   return !figures.empty();
 }
 

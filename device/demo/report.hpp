@@ -39,7 +39,7 @@ struct Run {
   const Summary& summary;
 };
 
-/// Writes object.off, tool.off, ticks.csv, path.csv, scene.json, the figures and report.html.
+/// Writes object.off, tool.off, ticks.csv, path.csv, scene.json, replay.json, the figures and report.html.
 /// @return false where no figures could be drawn
 bool write_report(const std::filesystem::path& folder, const Run& run);
 

@@ -164,7 +164,7 @@ Recording run(const scenes::Scene& scene, const Tool& tool, const SessionSetting
   SessionRecorder recorder(settings.record ? recording.ticks.size() : 0);
   if (settings.record) servo.recorder = &recorder;
   double first_time = 0;
-  ServoLoop loop(servo, device, [&](const ServoTick&, const DeviceState& state) {
+  ServoLoop loop(servo, device, [&](const ServoTick& deadline, const DeviceState& state) {
     if (count == 0) {
       first_time = state.time;
       if (real_device) map.place(state.pose, to_device_pose(scene.start));
@@ -184,6 +184,8 @@ Recording run(const scenes::Scene& scene, const Tool& tool, const SessionSetting
                               tick.iterations,
                               tick.converged(),
                               1e6 * seconds_between(before, after),
+                              1e-3 * double(deadline.late),
+                              int(deadline.missed),
                               way_end};
     latest.store({recording.ticks[count].time, recording.ticks[count].microseconds, tick.wrench.force.norm(),
                   tick.contacts.size()});

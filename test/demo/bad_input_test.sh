@@ -130,6 +130,10 @@ refuses 'scale of a simulated workspace' 'device' --workspace-scale 2
 refuses 'workspace of no size' 'workspace-scale' --device auto --workspace-scale 0
 refuses 'session that is missing' 'cannot be read' --replay missing.feeler
 refuses 'session that is none' 'no recording' --replay tetrahedron.off
+refuses 'view with a report' 'no report' --view
+refuses 'port without a view' 'view' --port 4280
+refuses 'scene that is only seen' 'view' --scene spline
+refuses 'two sessions' 'view' --replay a.feeler b.feeler
 refuses 'file for another scene' 'scene' --scene cavity --object tetrahedron.off
 
 # A folder with something else in it is not replaced.

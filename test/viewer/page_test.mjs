@@ -1,0 +1,344 @@
+// The live view as a user meets it, in headless Chromium.
+// usage: node page_test.mjs feeler-demo scratch-folder modules-folder chromium
+import assert from 'node:assert/strict';
+import { spawn } from 'node:child_process';
+import { mkdirSync, readFileSync, rmSync } from 'node:fs';
+import { createServer } from 'node:net';
+import { join } from 'node:path';
+import { pathToFileURL } from 'node:url';
+
+const [demo, scratch, modules, chromiumPath] = process.argv.slice(2);
+const { chromium } = (await import(pathToFileURL(join(modules, 'playwright-core', 'index.mjs')))).default ??
+  (await import(pathToFileURL(join(modules, 'playwright-core', 'index.mjs'))));
+rmSync(scratch, { recursive: true, force: true });
+mkdirSync(scratch, { recursive: true });
+
+/** A running feeler-demo. */
+class Demo {
+  static async start(...options) {
+    const demoRun = new Demo();
+    demoRun.child = spawn(demo, ['--view', ...options], { stdio: ['ignore', 'pipe', 'pipe'], env: { ...process.env, DISPLAY: '', WAYLAND_DISPLAY: '' } });
+    demoRun.output = '';
+    demoRun.errors = '';
+    demoRun.child.stdout.on('data', (text) => (demoRun.output += text));
+    demoRun.child.stderr.on('data', (text) => (demoRun.errors += text));
+    demoRun.ended = new Promise((resolve) => demoRun.child.on('exit', resolve));
+    await until(() => /https?:\S+/.test(demoRun.output) || demoRun.child.exitCode !== null, 'the address');
+    demoRun.url = demoRun.output.match(/http:\S+/)?.[0];
+    return demoRun;
+  }
+  async stop() {
+    this.child.kill('SIGINT');
+    return this.ended;
+  }
+}
+
+async function until(condition, what, milliseconds = 30000) {
+  const end = Date.now() + milliseconds;
+  while (!(await condition())) {
+    if (Date.now() > end) throw new Error(`waited in vain for ${what}`);
+    await new Promise((resolve) => setTimeout(resolve, 50));
+  }
+}
+
+async function freePort() {
+  const server = createServer().listen(0, '127.0.0.1');
+  await new Promise((resolve) => server.on('listening', resolve));
+  const { port } = server.address();
+  await new Promise((resolve) => server.close(resolve));
+  return port;
+}
+
+const browser = await chromium.launch({
+  executablePath: chromiumPath,
+  args: ['--no-sandbox', '--use-angle=swiftshader', '--enable-unsafe-swiftshader', '--ignore-gpu-blocklist'],
+});
+const complaints = [];
+
+async function open(url, options = {}) {
+  const context = await browser.newContext({ viewport: { width: 1200, height: 760 }, acceptDownloads: true, bypassCSP: true, ...options });
+  const page = await context.newPage();
+  page.on('pageerror', (error) => complaints.push(error.message));
+  page.on('console', (message) => message.type() === 'error' && complaints.push(message.text()));
+  await page.goto(url);
+  await page.waitForFunction(() => window.feeler?.view.framesDrawn > 0 && (feeler.timeline.frames.length > 2), null, { timeout: 30000 });
+  return page;
+}
+
+const frame = (page) => page.evaluate(() => {
+  const f = feeler.timeline.latest;
+  return { haptic: f.haptic.position, graphic: f.graphic.position, force: Math.hypot(...f.force), time: f.time, mode: f.mode, stage: f.stage };
+});
+/** Where a point of the world is seen [CSS px]. */
+const seen = (page, point) => page.evaluate(([x, y, z]) => {
+  const { camera, canvas } = feeler.view;
+  const p = camera.position.clone().set(x, y, z).project(camera), box = canvas.getBoundingClientRect();
+  return { x: box.left + (p.x + 1) / 2 * box.width, y: box.top + (1 - p.y) / 2 * box.height };
+}, point);
+const nobodyMoves = (page) => page.waitForFunction(() => ['still', 'person'].includes(feeler.timeline.latest.mode));
+const hideHelp = (page) => page.evaluate(() => feeler.showHelp(false));
+
+async function choose(page, scene) {
+  const before = (await frame(page)).stage;
+  await page.click(`#gallery [data-scene="${scene}"]`);
+  await page.waitForFunction((stage) => feeler.timeline.latest.stage > stage && feeler.stage.stage === feeler.timeline.latest.stage, before, { timeout: 60000 });
+}
+
+const tests = {
+  async nothing_moves_before_somebody_moves_it(page) {
+    const a = await frame(page);
+    await page.waitForTimeout(400);
+    const b = await frame(page);
+    assert.equal(b.mode, 'still');
+    assert.ok(b.time > a.time, 'the loop runs');
+    assert.deepEqual(a.graphic, b.graphic);
+  },
+
+  async a_drag_pushes_the_tool_against_a_wall_and_the_force_rises(page) {
+    await hideHelp(page);
+    const { haptic } = await frame(page);
+    const from = await seen(page, haptic);
+    await page.mouse.move(from.x, from.y);
+    await page.mouse.down();
+    for (let i = 1; i <= 20; ++i) {
+      await page.mouse.move(from.x, from.y - 8 * i);
+      await page.waitForTimeout(30);
+    }
+    await page.waitForFunction(() => Math.hypot(...feeler.timeline.latest.force) > 1);
+    const pressed = await frame(page);
+    await page.mouse.up();
+    assert.ok(pressed.haptic[2] - pressed.graphic[2] > 5e-4, 'the hand is in the wall, the tool is not');
+    const outside = await page.evaluate(() => {
+      // The corners of the cube of 20 mm in the room of 40 × 21 × 30 mm: the closed form is the checker.
+      const room = [0.02, 0.0105, 0.015], { position, quaternion } = feeler.timeline.latest.graphic;
+      const { Vector3, Quaternion } = { Vector3: feeler.view.camera.position.constructor, Quaternion: feeler.view.camera.quaternion.constructor };
+      const turn = new Quaternion(...quaternion);
+      let worst = -1;
+      for (let i = 0; i < 8; ++i) {
+        const corner = new Vector3(i & 1 ? 0.01 : -0.01, i & 2 ? 0.01 : -0.01, i & 4 ? 0.01 : -0.01).applyQuaternion(turn).add(new Vector3(...position));
+        corner.toArray().forEach((v, k) => (worst = Math.max(worst, Math.abs(v) - room[k])));
+      }
+      return worst;
+    });
+    assert.ok(outside < 1e-11, `a corner is ${outside} m in the wall`);
+    const strip = await page.textContent('#strips figure:first-child output');
+    assert.match(strip, /N/);
+    assert.match(await page.textContent('.readings'), /F|E|V/);
+  },
+
+  async keys_move_the_hand_and_stop_when_they_are_let_go(page) {
+    const before = await frame(page);
+    await page.focus('#first canvas');
+    await page.keyboard.down('d');
+    await page.waitForTimeout(400);
+    await page.keyboard.up('d');
+    await nobodyMoves(page);
+    await page.waitForTimeout(300);
+    const after = await frame(page);
+    assert.ok(Math.hypot(...after.haptic.map((v, i) => v - before.haptic[i])) > 5e-4);
+    const later = await frame(page);
+    assert.ok(Math.hypot(...after.haptic.map((v, i) => v - later.haptic[i])) < 1e-4);
+  },
+
+  async every_scene_shows_its_motion(page) {
+    const scenes = await page.evaluate(() => feeler.greeting.gallery.map(({ id }) => id));
+    assert.ok(scenes.includes('cavity') && scenes.includes('spline') && scenes.includes('shaft'));
+    for (const scene of scenes) {
+      await choose(page, scene);
+      const before = await frame(page);
+      await page.click('#show');
+      await page.waitForFunction((g) => Math.hypot(...feeler.timeline.latest.graphic.position.map((v, i) => v - g[i])) > 1e-3, before.graphic);
+      await page.click('#still');
+      await page.waitForFunction(() => feeler.timeline.latest.mode === 'still');
+    }
+  },
+
+  async settings_are_switched_live_and_bad_ones_refused_in_words(page) {
+    await choose(page, 'cavity');
+    const before = (await frame(page)).stage;
+    await page.selectOption('#settings select[name=variant]', { index: 1 });
+    await page.waitForFunction((stage) => feeler.stage.stage > stage && feeler.stage.variant === 'cavity 10 µm', before);
+    await page.selectOption('#settings select[name=margin]', '1e-7');
+    await page.waitForFunction(() => feeler.stage.margin === 1e-7);
+    await page.selectOption('#settings select[name=scalar]', 'float');
+    await page.waitForFunction(() => feeler.stage.scalar === 'float');
+    await page.evaluate(() => feeler.source.send({ type: 'scene', scene: 'moon' }));
+    await page.waitForFunction(() => /no scene moon/.test(document.getElementById('sentence').textContent));
+    await page.evaluate(() => feeler.source.send({ type: 'hand', stage: 1, position: [0, 0, 1e9], orientation: [1, 0, 0, 0] }));
+    await page.waitForFunction(() => /out of range/.test(document.getElementById('sentence').textContent));
+    const { time } = await frame(page);
+    await page.waitForFunction((t) => feeler.timeline.latest.time > t, time);
+  },
+
+  async pausing_keeps_the_moment_and_scrolls_back(page) {
+    await choose(page, 'steps');
+    await page.click('#show');
+    await page.waitForTimeout(1500);
+    await page.click('#pause');
+    const paused = await page.evaluate(() => feeler.player.cursor);
+    const shown = await page.evaluate(() => feeler.view.frame.time);
+    await page.click('#back');
+    await page.waitForTimeout(100);
+    assert.ok((await page.evaluate(() => feeler.view.frame.time)) < shown);
+    assert.ok((await page.evaluate(() => feeler.player.cursor)) < paused);
+    await page.hover('#strip-force', { position: { x: 100, y: 30 } });
+    assert.match(await page.textContent('#strips figure:first-child output'), /N/);
+    await page.click('#live');
+    await page.waitForFunction((t) => feeler.view.frame.time > t, paused);
+  },
+
+  async samples_picture_and_recording_are_saved(page) {
+    const save = async (button) => {
+      await page.evaluate(() => (document.querySelector('.menu').open = true));
+      const [download] = await Promise.all([page.waitForEvent('download'), page.click(button)]);
+      const path = join(scratch, download.suggestedFilename());
+      await download.saveAs(path);
+      return path;
+    };
+    const csv = readFileSync(await save('#save-csv'), 'utf8').split('\n');
+    assert.match(csv[0], /^time,fx,fy,fz/);
+    assert.ok(csv.length > 1000);
+    const times = csv.slice(1, -1).map((line) => Number(line.split(',')[0]));
+    assert.ok(times.every((t, i) => i === 0 || t > times[i - 1]), 'every tick once, in order');
+    assert.equal(readFileSync(await save('#save-png')).subarray(1, 4).toString(), 'PNG');
+    const recording = await save('#save-recording');
+    const other = await open(page.url());
+    await other.setInputFiles('#open-recording', [recording, recording]);
+    await other.waitForFunction(() => feeler.recordings.length === 2 && feeler.panes[1].view.framesDrawn > 0);
+    await other.setInputFiles('#open-recording', { name: 'bad.json', mimeType: 'application/json', buffer: Buffer.from('{}') });
+    await other.waitForFunction(() => /no recording/.test(document.getElementById('sentence').textContent));
+    await other.context().close();
+  },
+
+  async the_keyboard_reaches_every_control(page) {
+    const count = await page.evaluate(() => [...document.querySelectorAll('button, select, input, summary, canvas[tabindex]')]
+      .filter((node) => node.offsetParent !== null && !node.disabled && node.closest('details:not([open]) > div') === null).length);
+    await page.evaluate(() => document.activeElement.blur());
+    const reached = new Set();
+    for (let i = 0; i < count + 12; ++i) {
+      await page.keyboard.press('Tab');
+      reached.add(await page.evaluate(() => {
+        const nodes = [...document.querySelectorAll('button, select, input, summary, canvas[tabindex]')];
+        return nodes.indexOf(document.activeElement);
+      }));
+    }
+    reached.delete(-1);
+    assert.ok(reached.size >= count - 2, `${reached.size} of ${count}`);
+  },
+
+  async words_have_contrast_in_both_themes(page) {
+    for (const theme of ['light', 'dark']) {
+      await page.evaluate((name) => feeler.setTheme(name), theme);
+      const worst = await page.evaluate(() => {
+        const channel = (v) => (v /= 255) <= 0.03928 ? v / 12.92 : ((v + 0.055) / 1.055) ** 2.4;
+        const luminance = (text) => {
+          const [r, g, b] = text.match(/[\d.]+/g).map(Number);
+          return 0.2126 * channel(r) + 0.7152 * channel(g) + 0.0722 * channel(b);
+        };
+        const groundOf = (node) => {
+          for (; node; node = node.parentElement) {
+            const colour = getComputedStyle(node).backgroundColor;
+            if (!/, 0\)$/.test(colour)) return colour;
+          }
+          return 'rgb(255, 255, 255)';
+        };
+        const nodes = [...document.querySelectorAll('button, label, p, h2, small, output, dt, dd, figcaption span')].filter((n) => n.offsetParent && n.textContent.trim() && !n.disabled);
+        const ratios = nodes.map((node) => {
+          const [a, b] = [luminance(getComputedStyle(node).color), luminance(groundOf(node))].sort((x, y) => y - x);
+          return { ratio: (a + 0.05) / (b + 0.05), text: node.textContent.slice(0, 40) };
+        });
+        return ratios.reduce((x, y) => (y.ratio < x.ratio ? y : x));
+      });
+      assert.ok(worst.ratio >= 4.5, `${theme}: ${worst.ratio.toFixed(2)} at "${worst.text}"`);
+    }
+  },
+};
+
+let failures = 0;
+async function run(name, body) {
+  try {
+    await body();
+    assert.deepEqual(complaints.splice(0), [], 'the page complains');
+    console.log(`ok      ${name}`);
+  } catch (problem) {
+    ++failures;
+    complaints.length = 0;
+    console.log(`FAILED  ${name}: ${problem.message}`);
+  }
+}
+
+const live = await Demo.start('--scene', 'cavity', '--port', '0');
+try {
+  let page;
+  await run('the_page_loads_within_seconds_and_without_a_complaint', async () => { page = await open(live.url); });
+  if (page) {
+    for (const [name, test] of Object.entries(tests)) await run(name, () => test(page));
+    await run('ten_pages_at_once_get_every_tick', async () => {
+      const pages = [];
+      for (let i = 0; i < 10; ++i) pages.push(await open(live.url));
+      const counts = await Promise.all(pages.map((p) => p.evaluate(async () => {
+        const { samples } = feeler.timeline;
+        const begin = samples.time(samples.count - 1);
+        await new Promise((resolve) => setTimeout(resolve, 1500));
+        const seconds = samples.time(samples.count - 1) - begin;
+        return { got: samples.count - samples.from(begin) - 1, due: Math.round(seconds * 1000) };
+      })));
+      for (const p of pages) await p.context().close();
+      const missed = Number((await page.textContent('#counts')).match(/(\d+) missed/)[1]);
+      for (const { got, due } of counts) assert.ok(got <= due && got >= due - missed - 1000, `${got} of ${due}`);
+    });
+  }
+} finally {
+  await live.stop();
+}
+
+await run('a_lost_connection_is_told_and_comes_back', async () => {
+  const port = String(await freePort());
+  let server = await Demo.start('--scene', 'cavity', '--port', port);
+  const page = await open(server.url);
+  await server.stop();
+  await page.waitForFunction(() => /lost/.test(document.getElementById('connection').textContent));
+  server = await Demo.start('--scene', 'steps', '--port', port);
+  await page.waitForFunction(() => document.getElementById('connection').className === 'open' && feeler.stage.scene === 'steps', null, { timeout: 20000 });
+  const second = await Demo.start('--port', port);
+  assert.equal(await second.ended, 2);
+  assert.match(second.errors, /cannot be had/);
+  await server.stop();
+  await page.context().close();
+  complaints.length = 0;  // the browser notes each attempt
+});
+
+await run('a_report_plays_without_a_server_and_two_are_compared', async () => {
+  const reports = ['0.001', '0.0001'].map((clearance, i) => ({ clearance, out: join(scratch, `report-${i}`) }));
+  for (const { clearance, out } of reports) {
+    const child = spawn(demo, ['--scene', 'cavity', '--clearance', clearance, '--seconds', '1', '--out', out], { stdio: 'ignore' });
+    assert.equal(await new Promise((resolve) => child.on('exit', resolve)), 0);
+  }
+  const context = await browser.newContext();
+  const report = await context.newPage();
+  report.on('pageerror', (error) => complaints.push(error.message));
+  await report.goto(pathToFileURL(join(reports[0].out, 'report.html')).href);
+  await report.click('button');
+  const player = await (await report.waitForSelector('#player')).contentFrame();
+  await player.waitForFunction(() => window.feeler?.view.framesDrawn > 0);
+  assert.ok((await player.evaluate(() => feeler.timeline.samples.count)) >= 1000);
+  await player.click('#pause');
+  await player.waitForFunction(() => feeler.player.cursor > 0.2);
+  await context.close();
+
+  const replay = await Demo.start('--replay', reports[0].out, reports[1].out, '--port', '0');
+  const page = await open(replay.url);
+  assert.equal(await page.evaluate(() => feeler.recordings.length), 2);
+  await page.evaluate(() => feeler.player.seek(0.5));
+  const times = await page.evaluate(() => feeler.panes.map((pane) => pane.view.frame.time));
+  assert.ok(Math.abs(times[0] - times[1]) < 0.002);
+  const before = await page.evaluate(() => feeler.player.cursor);
+  await page.click('#back');
+  assert.ok((await page.evaluate(() => feeler.player.cursor)) < before);
+  await page.context().close();
+  await replay.stop();
+});
+
+await browser.close();
+console.log(failures === 0 ? 'the live view does what it says' : `${failures} failures`);
+process.exit(failures === 0 ? 0 : 1);
