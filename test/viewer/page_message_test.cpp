@@ -74,7 +74,7 @@ BOOST_AUTO_TEST_CASE(random_bytes_and_deep_nesting_are_refused_too) {
   std::mt19937 bits(1);
   for (int i = 0; i < 2000; ++i) {
     std::string text;
-    for (unsigned k = bits() % 60; k > 0; --k) text += char(bits() & 255u);
+    for (auto k = bits() % 60; k > 0; --k) text += char(bits() & 255u);
     BOOST_TEST(!parse_page_message(text).message.has_value());
   }
   BOOST_TEST(!parse_page_message(std::string(4000, '[')).message.has_value());

@@ -3,10 +3,12 @@
 
 #include <algorithm>
 #include <memory>
+#include <string_view>
 
 #include <nlohmann/json.hpp>
 
 #include "base64.hpp"
+#include "feeler/core/status.hpp"
 #include "feeler/device/conversion.hpp"
 #include "feeler/viewer/page.hpp"
 #include "feeler/viewer/wire.hpp"
@@ -70,10 +72,14 @@ std::string frames_of(const std::vector<TickRecord>& ticks, ContactWatch& watch)
 }
 
 /// What ends no script element of a page.
-std::string within_script(std::string json) {
-  for (std::size_t at = json.find("</"); at != std::string::npos; at = json.find("</", at + 3))
-    json.insert(at + 1, "\\");
-  return json;
+std::string within_script(const std::string& json) {
+  std::string result;
+  result.reserve(json.size());
+  for (const char c : json) {
+    if (c == '/' && !result.empty() && result.back() == '<') result += '\\';
+    result += c;
+  }
+  return result;
 }
 
 }  // namespace
@@ -95,13 +101,17 @@ std::optional<std::string> player_recording(const scenes::Scene& scene, const Re
 }
 
 std::string player_page(const std::vector<std::string>& recordings) {
-  std::string page(viewer::page_html());
-  std::string scripts;
-  for (const std::string& recording : recordings)
-    scripts +=
-        "<script type=\"application/json\" class=\"recording\">" + within_script(recording) + "</script>\n";
-  const std::string place = "<!--recordings-->";
-  return page.replace(page.find(place), place.size(), scripts);
+  constexpr std::string_view place = "<!--recordings-->";
+  const std::string_view page = viewer::page_html();
+  const std::size_t at = page.find(place);
+  std::string result(page.substr(0, at));
+  for (const std::string& recording : recordings) {
+    result += R"(<script type="application/json" class="recording">)";
+    result += within_script(recording);
+    result += "</script>\n";
+  }
+  result += page.substr(at + place.size());
+  return result;
 }
 
 }  // namespace feeler::demo

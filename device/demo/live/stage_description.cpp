@@ -42,8 +42,8 @@ std::string hello_text(const std::vector<GalleryEntry>& gallery, double rate) {
     ordered_json variants = ordered_json::array();
     for (const GalleryVariant& variant : entry.variants) variants.push_back(variant.label);
     entries.push_back({{"id", entry.id},
-                       {"title", origin.title},
-                       {"hint", origin.hint},
+                       {"title", entry.title},
+                       {"hint", entry.hint},
                        {"variants", variants},
                        {"clearance", bool(entry.with_clearance)}});
   }
@@ -53,8 +53,8 @@ std::string hello_text(const std::vector<GalleryEntry>& gallery, double rate) {
                       {"rate", rate},
                       {"gallery", entries},
                       {"methods",
-                       {choice_json("closest", "closest features (certified)"),
-                        choice_json("paper", "the paper's candidates (unverified)")}},
+                       {choice_json("closest", "closest features"),
+                        choice_json("paper", "the paper's, unverified")}},
                       {"scalars", {choice_json("double", "double"), choice_json("float", "float")}}}
       .dump();
 }

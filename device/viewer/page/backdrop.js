@@ -1,6 +1,6 @@
 // A picture of the object with its depths, kept while neither it nor the eye moves: in software a hundred thousand triangles take a tenth of a
 // second, and the tools before them a few milliseconds.
-import { AlwaysDepth, Camera, DepthTexture, Mesh, PlaneGeometry, Scene, ShaderMaterial, WebGLRenderTarget } from 'three';
+import { AlwaysDepth, Camera, DepthTexture, HalfFloatType, Mesh, PlaneGeometry, Scene, ShaderMaterial, WebGLRenderTarget } from 'three';
 
 const vertexShader = `
 varying vec2 place;
@@ -20,7 +20,7 @@ void main() {
 
 export class Backdrop {
   constructor() {
-    this.target = new WebGLRenderTarget(1, 1, { depthTexture: new DepthTexture(1, 1) });
+    this.target = new WebGLRenderTarget(1, 1, { type: HalfFloatType, depthTexture: new DepthTexture(1, 1) });
     this.material = new ShaderMaterial({
       vertexShader, fragmentShader, depthTest: true, depthWrite: true,
       uniforms: { colours: { value: this.target.texture }, depths: { value: this.target.depthTexture } },

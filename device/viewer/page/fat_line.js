@@ -1,6 +1,8 @@
 // Lines that a projector shows, some pixels wide: a quad a segment, widened in the vertex shader. No instances, which are slow in software.
 import { BufferAttribute, BufferGeometry, Color, DoubleSide, Mesh, ShaderMaterial, Vector4 } from 'three';
 
+const leastWidth = 1.3;  // thinner ones have gaps [pixels of the canvas]
+
 const vertexShader = `
 attribute vec3 other;
 attribute float side;
@@ -61,7 +63,7 @@ class FatMesh extends Mesh {
     super(geometry, material);
     this.onBeforeRender = (renderer) => {
       renderer.getCurrentViewport(material.uniforms.viewport.value);
-      material.uniforms.width.value = material.pixelsWide * renderer.getPixelRatio();
+      material.uniforms.width.value = Math.max(material.pixelsWide * renderer.getPixelRatio(), leastWidth);
     };
   }
 }

@@ -14,7 +14,7 @@ import { countTicks, Strips } from './strips.js';
 import { Timeline } from './timeline.js';
 
 const $ = (id) => document.getElementById(id);
-const stripPeriod = 80;  // between drawings of the strips [ms]
+const stripPeriod = 120;  // between drawings of the strips [ms]
 
 class Page {
   constructor() {

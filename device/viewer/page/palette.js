@@ -7,7 +7,7 @@ export const palettes = {
     series: ['#b23a00', '#0f62a8', '#2b7a3d', '#7a3fb8'], other: '#0b7285',
   },
   dark: {
-    background: '#14181d', object: '#a4917a', inner: '#7d6a54', edges: '#3a3228', haptic: '#ff5a52', graphic: '#aab4c0', graphicEdge: '#e3e8ee',
+    background: '#14181d', object: '#a4917a', inner: '#7d6a54', edges: '#8d7b63', haptic: '#ff5a52', graphic: '#aab4c0', graphicEdge: '#e3e8ee',
     force: '#ffa24d', torque: '#c69bff', spring: '#ff8a83', trace: '#6db3ff', hapticTrace: '#a2605d', ink: '#e6ebf0', faint: '#9aa6b2', grid: '#2b333c',
     series: ['#ff9d57', '#6db3ff', '#7fd394', '#c69bff'], other: '#4dd0e1',
   },

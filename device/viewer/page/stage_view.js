@@ -13,9 +13,10 @@ import { place, tipOf } from './pose.js';
 import { ToolView } from './tool_view.js';
 import { Trace } from './trace.js';
 
-const fullForce = 4, fullTorque = 0.05;  // [N], [N·m]: as long as the tool is large
+const fullForce = 5, fullTorque = 0.06;  // [N], [N·m]: as long as the tool is large
+const longestArrow = 0.6;               // of the tool's size, beyond which an arrow says no more
 const slowFrame = 30, fastFrame = 18;    // between two drawn one after the other [ms], at which fewer or more pixels are drawn
-const leastPixels = 0.4;
+const leastPixels = 0.6;
 const fewTriangles = 3000;               // of an object that is drawn anew each time
 const longPause = 300;                   // after which a picture has not waited for the one before [ms]
 
@@ -107,11 +108,12 @@ export class StageView {
   resetCamera() {
     const tool = this.graphic.position, object = this.object.position;
     const reach = this.object.radius ?? this.size;
-    const objectRadius = Math.min(reach, 1.6 * this.size), toolRadius = this.graphic.radius;
-    const apart = Math.min(tool.distanceTo(object), 2 * this.size);
+    const isWhole = reach < 3 * this.size;
+    const apart = isWhole ? tool.distanceTo(object) : 0;
+    const objectRadius = isWhole ? reach : 1.7 * this.size, toolRadius = this.graphic.radius;
     const radius = Math.max(objectRadius, toolRadius, (apart + objectRadius + toolRadius) / 2);
-    const share = Math.min(Math.max(radius - objectRadius, 0) / Math.max(apart, 1e-9), 1);
-    const middle = reach > objectRadius ? tool.clone() : object.clone().lerp(tool, share);
+    const share = Math.min((radius - objectRadius) / Math.max(apart, 1e-9), 1);
+    const middle = object.clone().lerp(tool, isWhole ? share : 0.55);
     const distance = 1.05 * radius / Math.sin(this.camera.fov * Math.PI / 360);
     this.controls.target.copy(middle);
     this.camera.position.copy(middle).add(new Vector3(0.45, -0.8, 0.52).setLength(distance));
@@ -160,7 +162,7 @@ export class StageView {
     for (const [arrow, vector, full] of [[this.force, force, fullForce], [this.torque, torque, fullTorque]]) {
       const size = norm(vector);
       if (size === 0) arrow.visible = false;
-      else arrow.set(from, new Vector3(...vector).divideScalar(size), this.size * Math.min(size / full, 1.5), thickness);
+      else arrow.set(from, new Vector3(...vector).divideScalar(size), this.size * Math.min(size / full, longestArrow), thickness);
     }
   }
 
@@ -177,7 +179,8 @@ export class StageView {
     this.renderer.setPixelRatio(this.pixels);
     this.renderer.setSize(clientWidth, clientHeight, false);
     this.camera.aspect = clientWidth / clientHeight;
-    this.camera.updateProjectionMatrix();
+    // Off the middle, because the words are at the upper left.
+    this.camera.setViewOffset(clientWidth, clientHeight, -0.05 * clientWidth, -0.035 * clientHeight, clientWidth, clientHeight);
     this.changed();
   }
 
