@@ -103,8 +103,14 @@ class Page {
     };
     $('show').onclick = () => this.source.playMotion();
     $('still').onclick = () => this.source.stopHand();
-    if (localStorageValue('helped') === null) this.showHelp(true);
-    keepLocally('helped', 'yes');
+    this.invite();
+  }
+
+  /** What to do first, until it is done. */
+  invite() {
+    this.say('Drag the tool against a wall, with the mouse, a finger or the arrow keys; ? tells every way.', true);
+    this.view.canvas.addEventListener('pointerdown', () => this.say(''), { once: true });
+    this.view.canvas.addEventListener('keydown', () => this.say(''), { once: true });
   }
 
   hello(hello) {
@@ -119,7 +125,7 @@ class Page {
   }
 
   setStage(stage) {
-    this.say('');
+    if (this.stage) this.say('');
     const isSameScene = this.stage?.scene === stage.scene;
     this.stage = stage;
     this.panes[0].setStage(stage);
@@ -183,7 +189,6 @@ class Page {
     this.setLook({ ...defaultLook, ...sceneLooks[this.stage.scene] });
     this.strips.window = Math.min(10, Math.max(1, this.timeline.end - this.timeline.begin));
     this.player.seek(this.timeline.begin);
-    if (!matchMedia('(prefers-reduced-motion: reduce)').matches && document.body.dataset.autoplay) this.player.play(1);
   }
 
   addPane() {
