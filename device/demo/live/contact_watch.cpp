@@ -1,9 +1,9 @@
 // One recogniser a piece; their formations joined.
 #include "live/contact_watch.hpp"
 
-#include "feeler/contact/contact_formation.hpp"
-#include "feeler/contact/contact_recogniser.hpp"
-#include "feeler/object/surface_features.hpp"
+#include "feeler/recognition/contact_formation.hpp"
+#include "feeler/recognition/contact_recogniser.hpp"
+#include "feeler/recognition/surface_features.hpp"
 
 namespace feeler::demo {
 

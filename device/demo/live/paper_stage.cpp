@@ -1,7 +1,7 @@
 // Stages whose renderers model contact as the paper does.
 #include <stdexcept>
 
-#include "feeler/render/candidate_contacts.hpp"
+#include "feeler/paper/candidate_contacts.hpp"
 #include "live/rendered_stage.hpp"
 #include "live/stage_variants.hpp"
 
