@@ -51,8 +51,8 @@ export class ContactsView extends Group {
     });
   }
 
-  /** Puts the labels where the contacts are seen. */
-  placeLabels(camera, width, height) {
+  /** Puts the labels where the contacts are seen. @param covered  an element over the picture that none is to lie on */
+  placeLabels(camera, width, height, covered) {
     const shown = this.visible && this.contacts ? this.contacts.slice(0, mostLabels) : [];
     while (this.labels.children.length < shown.length) this.labels.append(document.createElement('span'));
     const taken = [];
@@ -65,6 +65,7 @@ export class ContactsView extends Group {
       let y = (1 - p.y) / 2 * height;
       while (taken.some((t) => Math.abs(t.x - x) < 70 && Math.abs(t.y - y) < 18)) y += 18;
       taken.push({ x, y });
+      label.hidden = !covered.hidden && x + 80 > covered.offsetLeft && y + 10 > covered.offsetTop;
       const { short, family } = contactTypes[contact.type];
       label.textContent = `${short} ${withUnit(contact.gap, 'm', 1e-9)}`;
       label.style.setProperty('--family', families[family]);

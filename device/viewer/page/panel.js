@@ -61,7 +61,7 @@ export function showSettings(form, hello, stage, choose) {
     select('Contact method', 'method', hello.methods.map(({ id, label }) => [id, label]), stage.method),
     select('Scalar', 'scalar', hello.scalars.map(({ id, label }) => [id, label]), stage.scalar),
   ];
-  form.replaceChildren(element('fieldset', {}, ...fields), element('fieldset', {}, ...render));
+  form.replaceChildren(...[fields, render].filter((group) => group.length > 1).map((group) => element('fieldset', {}, ...group)));
   form.onchange = () => {
     const values = Object.fromEntries(new FormData(form));
     const request = { scene: stage.scene, stiffness: Number(values.stiffness), margin: Number(values.margin), method: values.method, scalar: values.scalar };

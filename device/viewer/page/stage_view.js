@@ -191,7 +191,7 @@ export class StageView {
     this.camera.updateMatrixWorld();
     if (this.backdrop && this.object.look === 'solid' && this.object.triangleCount > fewTriangles) this.drawOverBackdrop();
     else this.renderer.render(this.scene, this.camera);
-    this.contacts.placeLabels(this.camera, clientWidth, clientHeight);
+    this.contacts.placeLabels(this.camera, clientWidth, clientHeight, this.closeUp.box);
     if (this.magnifies && this.frame) this.drawCloseUp();
     ++this.framesDrawn;
     this.adapt();
