@@ -274,8 +274,9 @@ try {
   if (page) {
     for (const [name, test] of Object.entries(tests)) await run(name, () => test(page));
     await run('ten_pages_at_once_get_every_tick', async () => {
+      await page.click('#still');
       const pages = [];
-      for (let i = 0; i < 10; ++i) pages.push(await open(live.url));
+      for (let i = 0; i < 10; ++i) pages.push(await open(live.url, { viewport: { width: 480, height: 320 } }));
       const counts = await Promise.all(pages.map((p) => p.evaluate(async () => {
         const { samples } = feeler.timeline, missedColumn = 13;
         const begin = samples.time(samples.count - 1);

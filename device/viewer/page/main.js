@@ -146,7 +146,14 @@ class Page {
     const last = this.timeline.latest;
     this.noteEvents(last, frame);
     this.timeline.add(frame);
-    if (this.player.isLive) this.showMoment();
+    if (this.player.isLive && !this.rests(frame)) this.showMoment();
+  }
+
+  /** Whether nothing has moved since the picture on show: then four a second are enough. */
+  rests(frame) {
+    const shown = this.view.frame;
+    const poses = ({ haptic, graphic }) => [haptic.position, haptic.quaternion, graphic.position, graphic.quaternion].join();
+    return shown && shown.stage === frame.stage && frame.time - shown.time < 0.25 && poses(shown) === poses(frame);
   }
 
   noteEvents(last, frame) {
