@@ -67,8 +67,11 @@ export class ContactsView extends Group {
       taken.push({ x, y });
       label.hidden = !covered.hidden && x + 80 > covered.offsetLeft && y + 10 > covered.offsetTop;
       const { short, family } = contactTypes[contact.type];
-      label.textContent = `${short} ${withUnit(contact.gap, 'm', 1e-9)}`;
-      label.style.setProperty('--family', families[family]);
+      const text = `${short} ${withUnit(contact.gap, 'm', 1e-8)}`;
+      if (label.textContent !== text) {
+        label.textContent = text;
+        label.style.setProperty('--family', families[family]);
+      }
       label.style.transform = `translate(${x.toFixed(1)}px, ${y.toFixed(1)}px)`;
     });
   }

@@ -6,6 +6,14 @@ import { StageView } from './stage_view.js';
 
 const axes = { x: [1, 0, 0], y: [0, 1, 0], z: [0, 0, 1] };
 
+/** Writes rows of a name and a value, and touches only what has changed. */
+function setTable(list, rows) {
+  while (list.children.length < 2 * rows.length) list.append(document.createElement('dt'), document.createElement('dd'));
+  rows.flat().forEach((text, i) => {
+    if (list.children[i].textContent !== text) list.children[i].textContent = text;
+  });
+}
+
 export class Pane {
   /** @param section  the element of the picture, with its parts */
   constructor(section, timeline) {
@@ -13,6 +21,7 @@ export class Pane {
     this.timeline = timeline;
     this.parts = Object.fromEntries([...section.querySelectorAll('[data-part]')].map((part) => [part.dataset.part, part]));
     this.view = new StageView(this.parts);
+    this.lastWritten = 0;
   }
 
   setStage(stage) {
@@ -32,19 +41,18 @@ export class Pane {
     this.write(frame);
   }
 
+  /** In words, ten times a second: nobody reads faster, and drawing words is slow where there is no graphics processor. */
   write(frame) {
+    const now = performance.now();
+    if (this.timeline.isGrowing && now - this.lastWritten < 100) return;
+    this.lastWritten = now;
     const apart = Math.hypot(...frame.haptic.position.map((v, k) => v - frame.graphic.position[k]));
     const types = countTypes(frame.contacts).map(([{ short }, count]) => (count > 1 ? `${count} ${short}` : short)).join(', ');
     const rows = [
       ['force', withUnit(norm(frame.force), 'N', 1e-4)], ['torque', withUnit(norm(frame.torque), 'N·m', 1e-6)], ['contacts', types || 'none'],
       ['apart', `${withUnit(apart, 'm', 1e-7)}, ${degrees(turnBetween(frame.haptic, frame.graphic))}`], ['state', frame.status],
     ];
-    this.parts.readings.replaceChildren(...rows.flatMap(([name, value]) => {
-      const dt = document.createElement('dt'), dd = document.createElement('dd');
-      dt.textContent = name;
-      dd.textContent = value;
-      return [dt, dd];
-    }));
+    setTable(this.parts.readings, rows);
   }
 
   setLook(values) {

@@ -36,6 +36,10 @@ function prepared(canvas) {
   return { context, width, height };
 }
 
+function setText(node, text) {
+  if (node.textContent !== text) node.textContent = text;
+}
+
 /** Least and greatest value of each pixel column; NaN where there is none. */
 function envelope(ring, of, begin, end, width) {
   const low = new Float64Array(width).fill(NaN), high = new Float64Array(width).fill(NaN);
@@ -128,7 +132,7 @@ export class Strips {
     });
     const at = this.hover === null ? (isLive ? null : cursor) : this.timeAt(this.hover);
     if (at !== null) this.drawCursor(context, (at - this.begin) / (this.end - this.begin) * width, height, palette);
-    output.textContent = timelines.map(({ samples }) => this.read(samples, strip, at ?? this.end)).join(' · ');
+    setText(output, timelines.map(({ samples }) => this.read(samples, strip, at ?? this.end)).join(' · '));
     context.fillStyle = palette.faint;
     context.font = '10px system-ui, "DejaVu Sans", sans-serif';
     context.fillText(strip.write(top / 1.08), 3, 10);
@@ -181,6 +185,6 @@ export class Strips {
     ['1 µs', '10 µs', '0.1 ms', '1 ms'].forEach((text, i) => context.fillText(text, i / 4 * width + 2, height - 2));
     values.sort((a, b) => a - b);
     const quantile = (share) => values[Math.min(values.length - 1, Math.floor(share * values.length))];
-    output.textContent = values.length === 0 ? '–' : `p50 ${quantile(0.5).toFixed(0)} · p99 ${quantile(0.99).toFixed(0)} µs`;
+    setText(output, values.length === 0 ? '–' : `p50 ${quantile(0.5).toFixed(0)} · p99 ${quantile(0.99).toFixed(0)} µs`);
   }
 }

@@ -53,6 +53,7 @@ export class Timeline {
     this.samples = new SampleRing(sampleCapacity);
     this.frames = [];
     this.events = [];
+    this.isGrowing = false;  // of a live view
   }
 
   /** @param keepsAll  of a replay: nothing grows old */
@@ -71,6 +72,7 @@ export class Timeline {
   clear() {
     this.samples.clear();
     this.frames.length = this.events.length = 0;
+    this.isGrowing = true;
   }
 
   get begin() {
