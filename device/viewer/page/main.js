@@ -115,7 +115,7 @@ class Page {
 
   hello(hello) {
     this.greeting = hello;
-    this.timeline.clear();
+    this.timeline.restart(hello.rate);
     showGallery($('gallery'), hello.gallery, (request) => this.choose(request));
   }
 

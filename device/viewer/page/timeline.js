@@ -40,16 +40,13 @@ export class SampleRing {
   from(time) {
     return lowerBound(this.count, (i) => this.time(i), time);
   }
-  clear() {
-    this.begin = this.count = 0;
-  }
 }
 
 /** Samples, frames and events of a run. */
 export class Timeline {
   static keptSeconds = 60;
 
-  constructor(sampleCapacity = 65536) {
+  constructor(sampleCapacity = 1) {
     this.samples = new SampleRing(sampleCapacity);
     this.frames = [];
     this.events = [];
@@ -69,8 +66,9 @@ export class Timeline {
     this.events.push({ time, kind });
   }
 
-  clear() {
-    this.samples.clear();
+  /** @param rate  of the samples to come [1/s] */
+  restart(rate) {
+    this.samples = new SampleRing(Math.ceil(rate * (Timeline.keptSeconds + 5)));
     this.frames.length = this.events.length = 0;
     this.isGrowing = true;
   }
