@@ -268,8 +268,8 @@ async function run(name, body) {
 }
 
 const live = await Demo.start('--scene', 'cavity', '--port', '0');
+let page;
 try {
-  let page;
   await run('the_page_loads_within_seconds_and_without_a_complaint', async () => { page = await open(live.url); });
   if (page) {
     for (const [name, test] of Object.entries(tests)) await run(name, () => test(page));
@@ -295,6 +295,7 @@ try {
     });
   }
 } finally {
+  await page?.context().close();
   await live.stop();
 }
 
