@@ -14,7 +14,7 @@ import { countTicks, Strips } from './strips.js';
 import { Timeline } from './timeline.js';
 
 const $ = (id) => document.getElementById(id);
-const stripPeriod = 120;  // between drawings of the strips [ms]
+const stripPeriod = 120, slowStripPeriod = 300;  // between drawings of the strips, and where pixels are slow [ms]
 
 class Page {
   constructor() {
@@ -256,7 +256,7 @@ class Page {
       if (this.frameStamps.length > 120) this.frameStamps.shift();
     }
     const now = performance.now();
-    if (this.player && now - this.lastStrips > stripPeriod && (this.player.isLive || this.lastStrips === 0)) {
+    if (this.player && now - this.lastStrips > (this.view.isSlow ? slowStripPeriod : stripPeriod) && (this.player.isLive || this.lastStrips === 0)) {
       this.lastStrips = now;
       this.drawStrips();
     }

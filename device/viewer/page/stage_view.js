@@ -49,7 +49,7 @@ export class StageView {
   /** @param elements  canvas, labels, closeUp, closeUpCaption and scaleBar */
   constructor(elements) {
     this.canvas = elements.canvas;
-    const isSlow = drawsInSoftware();
+    const isSlow = this.isSlow = drawsInSoftware();
     this.renderer = new WebGLRenderer({ canvas: this.canvas, antialias: !isSlow });
     this.renderer.autoClear = false;
     this.mostPixels = Math.min(devicePixelRatio, isSlow ? 1 : 2);
