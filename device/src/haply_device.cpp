@@ -144,7 +144,7 @@ class HaplyDriver final : public Device, private InverseService::Client {
   // By the thread of `open`, before the exchange starts.
 
   std::string choose(const ServiceMessage& inventory) {
-    const auto refused = [this](const char* what) { return std::string("Haply: ") + what; };
+    const auto refused = [](const char* what) { return std::string("Haply: ") + what; };
     if (inventory.arms.empty()) return refused("the Inverse Service knows no Inverse3: check its USB cable and its power supply.");
     std::string names;
     for (const ServiceArm& arm : inventory.arms) names += (names.empty() ? "" : ", ") + arm.id;

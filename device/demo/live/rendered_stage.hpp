@@ -77,6 +77,7 @@ class RenderedStage final : public Stage {
     result.stiffness = {settings.stiffness.translational.cast<Scalar>(),
                         settings.stiffness.rotational.cast<Scalar>()};
     result.margin = Scalar(settings.margin);
+    result.closed_means_solid = settings.closed_means_solid;
     return result;
   }
 
