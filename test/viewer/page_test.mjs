@@ -280,8 +280,8 @@ try {
       const counts = await Promise.all(pages.map((p) => p.evaluate(async () => {
         const { samples } = feeler.timeline, missedColumn = 13;
         const begin = samples.time(samples.count - 1);
-        await new Promise((resolve) => setTimeout(resolve, 1500));
         const first = samples.from(begin) + 1;
+        while (samples.count - first <= 500) await new Promise((resolve) => setTimeout(resolve, 100));  // on a machine as slow as it may be
         let missed = 0;
         for (let i = first; i < samples.count; ++i) missed += samples.value(i, missedColumn);
         return { got: samples.count - first, missed, due: Math.round((samples.time(samples.count - 1) - begin) * 1000), lost: feeler.timeline.latest.lost };
@@ -289,7 +289,6 @@ try {
       for (const p of pages) await p.context().close();
       for (const { got, missed, due, lost } of counts) {
         assert.equal(got + missed, due, 'every deadline is a sample or was missed');
-        assert.ok(got > 500);
         assert.equal(lost, 0);
       }
     });
