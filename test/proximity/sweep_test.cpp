@@ -512,7 +512,7 @@ BOOST_AUTO_TEST_CASE(what_is_near_a_standing_tool_is_noticed_or_lies_behind_the_
     }
     noticed_in_all += noticed.size();
     empty += noticed.empty() ? 1 : 0;
-    BOOST_TEST(noticed.is_all);
+    BOOST_TEST(!noticed.is_exhausted);
     if (noticed.full()) continue;
     for (int t = 0; t < mesh.triangle_count(); ++t) {
       if (distance[std::size_t(t)] > WideReal(clearance.kept) - 1e-12L || names.count(t) > 0 || (!known.empty() && known.front().triangle == t)) continue;

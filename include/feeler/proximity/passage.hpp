@@ -21,6 +21,7 @@ struct Passage {
   Vector3<Scalar> normal = Vector3<Scalar>::Zero();  ///< world normal of a plane that holds at both ends, or zero
   WitnessFeatures features;                          ///< of the last query, or those given
   bool turns = false;                                ///< the plane holds where it turns with the tool, as it is at the end
+  bool is_cut = false;                               ///< the work limit was reached: it may be free for longer
   Scalar slack = std::numeric_limits<Scalar>::infinity();  ///< separation at the end, where that was measured [m]
 };
 
@@ -120,6 +121,7 @@ bool turning_plane_holds(const MovingTool<Tool>& moving, const Matrix3<typename 
 /// end is tried before the triangle is measured there.
 /// @param work    grows by one for each distance query
 /// @param enough  of a triangle that is in the way at the end it is enough to know that it does not block before this time
+/// @param limit   value of `work` at which it ends with what it has: some queries more at most
 /// @cost  0 queries for a plane that holds, 1 to 4 as a rule, at most 27
 template <ConvexTool Tool>
 [[gnu::flatten, gnu::noinline]]
@@ -127,7 +129,8 @@ Passage<typename Tool::Scalar> pass(const MovingTool<Tool>& moving, const Passed
                                     const MotionFrame<typename Tool::Scalar>& start,
                                     const MotionFrame<typename Tool::Scalar>& end,
                                     const Clearance<typename Tool::Scalar>& clearance, int& work,
-                                    typename Tool::Scalar enough = std::numeric_limits<typename Tool::Scalar>::infinity()) noexcept {
+                                    typename Tool::Scalar enough = std::numeric_limits<typename Tool::Scalar>::infinity(),
+                                    int limit = (std::numeric_limits<int>::max)()) noexcept {
   using Scalar = typename Tool::Scalar;
   using Plane = detail::HeldPlane<Scalar>;
   const Matrix3<Scalar>& corners = triangle.corners;
@@ -165,7 +168,7 @@ Passage<typename Tool::Scalar> pass(const MovingTool<Tool>& moving, const Passed
     const Scalar known = (std::max)(slack_at(last.normal, start), is_known ? plane.slack : Scalar(0));
     const Scalar required = clearance.required((std::max)(known, Scalar(0)));
     const auto held = detail::held_part(moving, corners, last, end, start, required, false);
-    if (!(held.part < Scalar(1))) return {end.time, false, last.normal, warm, held.turns, last.slack};
+    if (!(held.part < Scalar(1))) return {end.time, false, last.normal, warm, held.turns, false, last.slack};
   }
   if (!is_known) {
     plane = query(start, true);
@@ -173,7 +176,7 @@ Passage<typename Tool::Scalar> pass(const MovingTool<Tool>& moving, const Passed
     if (touches) last = query(end, true);
   }
   const Scalar required = clearance.required(plane.slack);
-  if (detail::turning_plane_holds(moving, corners, plane, start, last, end, required)) return {end.time, false, last.normal, warm, false, last.slack};
+  if (detail::turning_plane_holds(moving, corners, plane, start, last, end, required)) return {end.time, false, last.normal, warm, false, false, last.slack};
   const Scalar length = moving.length() * end.time;
   const Scalar resolution = triangle.is_exact ? clearance.resolution : (std::max)(clearance.resolution, length / 16);
   const int maximum_steps = triangle.is_exact ? 24 : 10;
@@ -181,7 +184,10 @@ Passage<typename Tool::Scalar> pass(const MovingTool<Tool>& moving, const Passed
   Scalar beyond = end.time;  // to where no turning plane is known to hold
   bool rolls = false;
   const auto is_late = [&](Scalar time) { return last.slack < required && 4 * (enough - time) * moving.length() <= resolution; };
+  bool is_cut = false;
   for (int step = 0; step < maximum_steps; ++step) {
+    is_cut = work >= limit;
+    if (is_cut) break;
     const Scalar whole = end.time - frame.time;
     const bool is_found = is_known && step == 0;
     Scalar advance = whole * (is_found ? part_from_start : detail::held_part(moving, corners, plane, frame, end, required, true).part);
@@ -191,7 +197,7 @@ Passage<typename Tool::Scalar> pass(const MovingTool<Tool>& moving, const Passed
       const MotionFrame<Scalar> near_end = moving.frame_at(frame.time + shorter);
       advance = (std::max)(advance, shorter * detail::held_part(moving, corners, plane, frame, near_end, required, true).part);
     }
-    if (!(advance < whole)) return {end.time, false, last.normal, warm, false, last.slack};
+    if (!(advance < whole)) return {end.time, false, last.normal, warm, false, false, last.slack};
     const Scalar half = (beyond - frame.time) / 2;
     if (rolls && half > advance && half * moving.length() >= resolution) {
       const MotionFrame<Scalar> middle = moving.frame_at(frame.time + half);
@@ -211,9 +217,9 @@ Passage<typename Tool::Scalar> pass(const MovingTool<Tool>& moving, const Passed
       rolls = triangle.is_exact && 2 * (next.slack - required) > plane.slack - required;
       plane = next;
     }
-    if (detail::turning_plane_holds(moving, corners, plane, frame, last, end, required)) return {end.time, false, last.normal, warm, false, last.slack};
+    if (detail::turning_plane_holds(moving, corners, plane, frame, last, end, required)) return {end.time, false, last.normal, warm, false, false, last.slack};
   }
-  return {frame.time, true, plane.normal, warm};
+  return {.time = frame.time, .is_blocked = true, .normal = plane.normal, .features = warm, .is_cut = is_cut};
 }
 
 }  // namespace feeler

@@ -5,7 +5,9 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <optional>
 #include <span>
+#include <utility>
 
 #include <Eigen/Core>
 
@@ -49,7 +51,7 @@ struct Noticed {
 
 /// What was not known near a tool: some of it where it is much.
 struct NoticedTriangles : FixedVector<Noticed, 24> {
-  bool is_all = true;  ///< false where the work limit was reached before all was looked at
+  bool is_exhausted = false;  ///< the work limit was reached before all was looked at
 };
 
 /// Result of a sweep: the motion is free of collision on [0, time]. That is less than the whole where something blocks, or the work ran low.
@@ -59,7 +61,7 @@ struct SweepResult {
 
   Scalar time = Scalar(1);
   FixedVector<Blocker<Scalar>, blocker_capacity> blockers;
-  bool is_exhausted = false;  ///< the work limit was reached: nothing is certified, time is 0; the blockers found so far are real
+  bool is_exhausted = false;  ///< the work limit was reached: nothing is certified yet, time is 0; the blockers found so far are real
 
   bool is_whole() const noexcept { return blockers.empty() && time >= Scalar(1); }
   /// Adds a blocker; where there are too many the earliest are kept.
@@ -83,8 +85,7 @@ typename Tool::Scalar worth_certifying(typename Tool::Scalar blocked, const Clea
 ///
 /// A box or a triangle passes if one cached plane holds over the whole motion (`PlaneCache`); a triangle that no plane passes is measured
 /// (`pass`), which gives a new plane or a blocker. After a blocker the motion is shortened for the rest, though not to the
-/// blocker itself: the ones just behind it are better known at once. Where the work runs low it is shortened too, and the planes known pass
-/// most of what is left.
+/// blocker itself: the ones just behind it are better known at once. Where the work runs out it stops, and goes on later where it was (`go_on`).
 /// @tparam Order  in which boxes and triangles are visited: `NearestFirst` or `InBatches`
 template <ConvexTool Tool, class Order = NearestFirst>
 class Sweep {
@@ -95,72 +96,38 @@ class Sweep {
   /// @param walls  remembered planes of the object's walls, if any
   /// @param piece    of the tool
   Sweep(PlaneCache<Scalar>& planes, const Clearance<Scalar>& clearance, WallPlanes<Scalar>* walls = nullptr, int piece = 0) noexcept
-      : planes_(planes), clearance_(clearance), walls_(walls), piece_(piece) {}
+      : planes_(&planes), walls_(walls), clearance_(clearance), piece_(piece) {}
+
+  /// Its owner has been copied: the caches are those of the copy from here on.
+  void work_with(PlaneCache<Scalar>& planes, WallPlanes<Scalar>* walls) noexcept {
+    planes_ = &planes;
+    walls_ = walls;
+  }
 
   /// @param known   triangles to examine first, exactly; the traversal skips them
   /// @param work    grows by the work done
-  /// @param limit   value of `work` at which the sweep gives up
+  /// @param limit   value of `work` at which the sweep stops; some queries more at most
   /// @param until   time up to which the motion is of interest: only [0, until] is certified
   /// @param first_blocked  time at which something else blocks the motion: what does not before that is not looked for exactly
   template <class MeshScalar>
   SweepResult<Scalar> certify(const TriangleMesh<MeshScalar>& mesh, const MovingTool<Tool>& moving,
                               std::span<const KnownTriangle<Scalar>> known, int& work, int limit, Scalar until = Scalar(1),
                               Scalar first_blocked = std::numeric_limits<Scalar>::infinity()) noexcept {
-    SweepResult<Scalar> result;
-    result.time = until;
-    known_ = known;
     first_blocked_ = first_blocked;
+    known_ = known;
     begin(mesh, moving, until);
-    for (const KnownTriangle<Scalar>& pair : known) {
-      if (is_parted(mesh, pair.triangle, moving, work) || passes(pair.state.corners, moving)) continue;
-      examine(pair.triangle, pair.state, moving, result, work);
-      if (work > limit) return give_up(result);
-    }
-    const auto is_known = known_by_number();
-    const auto measure = [&](int triangle, const Matrix3<Scalar>& corners) {
-      const int blockers = result.blockers.size();
-      examine(triangle, {corners, Vector::Zero(), planes_.features().recall_or_guess(triangle), false}, moving, result, work);
-      return result.blockers.size() > blockers;
-    };
-    // A tool meets the inside of a wall with the vertex that is lowest: what is below that tells when.
-    const auto is_wall_parted = [&](int wall, bool is_inside) {
-      Scalar parted = walls_->parts_wall_until(mesh, wall, moving, start_, end_, clearance_);
-      if (parted >= end_.time) return true;
-      if (parted < Scalar(0)) return false;
-      if (walls_->is_asked_first(mesh, wall, moving, start_)) {
-        for (const Scalar time : {parted, end_.time}) {
-          const int triangle = walls_->triangle_below(mesh, wall, moving, start_, time);
-          if (triangle < 0 || is_known(triangle)) continue;
-          if (!measure(triangle, mesh.corners(triangle).template cast<Scalar>().colwise() - moving.origin())) continue;
-          walls_->meet(wall);
-          parted = walls_->parts_wall_until(mesh, wall, moving, start_, end_, clearance_);
-          if (parted >= end_.time) return true;
-          break;
-        }
-      }
-      if (!is_inside || !walls_->has_met(wall)) return false;
-      result.time = (std::min)(result.time, parted);
-      return true;
-    };
-    const auto look_at = [&](int triangle, const Matrix3<Scalar>& corners) {
-      const int wall = walls_ != nullptr ? mesh.walls().of_triangle(triangle) : Walls<MeshScalar>::none;
-      const auto& vertices = mesh.triangle(triangle);
-      const auto is_inside = [&mesh](int vertex) { return mesh.walls().is_inside(vertex); };
-      if (wall < 0 || !is_wall_parted(wall, std::all_of(vertices.begin(), vertices.end(), is_inside))) measure(triangle, corners);
-      return true;
-    };
-    int low = limit - (limit - work) / 8;
-    const auto may_go_on = [&] {
-      if (work <= low) return true;
-      if (work > limit) return false;
-      low = limit - (limit - low) / 2;
-      result.time = (std::min)(result.time, end_.time / 4);  // with a shorter motion
-      set_end(moving, end_.time / 4);
-      return true;
-    };
-    const bool is_done = traverse(mesh, moving, work, is_known, is_wall_parted, look_at, may_go_on);
-    count_hits();
-    return is_done ? result : give_up(result);
+    result_ = {};
+    result_.time = until;
+    next_known_ = 0;
+    return run(mesh, moving, work, limit, false);
+  }
+  /// After `certify`, or this, was exhausted: the rest of it.
+  /// @param mesh, moving, known  as there
+  template <class MeshScalar>
+  SweepResult<Scalar> go_on(const TriangleMesh<MeshScalar>& mesh, const MovingTool<Tool>& moving, std::span<const KnownTriangle<Scalar>> known,
+                            int& work, int limit) noexcept {
+    known_ = known;
+    return run(mesh, moving, work, limit, true);
   }
 
   /// The triangles nearer than `Clearance::kept` to a tool that stands still, but for those known and those hidden behind the plane of one that is:
@@ -169,27 +136,36 @@ class Sweep {
   template <class MeshScalar>
   NoticedTriangles notice(const TriangleMesh<MeshScalar>& mesh, const MovingTool<Tool>& standing, std::span<const KnownTriangle<Scalar>> known,
                           int& work, int limit) noexcept {
-    NoticedTriangles noticed;
     known_ = known;
     may_be_near_ = false;
     begin(mesh, standing, Scalar(1));
+    noticed_ = {};
+    return go_on_noticing(mesh, standing, known, work, limit);
+  }
+  /// After `notice`, or this, was exhausted: the rest of it, with what came before.
+  /// @param mesh, standing, known  as there
+  template <class MeshScalar>
+  NoticedTriangles go_on_noticing(const TriangleMesh<MeshScalar>& mesh, const MovingTool<Tool>& standing, std::span<const KnownTriangle<Scalar>> known,
+                                  int& work, int limit) noexcept {
+    known_ = known;
     const auto look_at = [&](int triangle, const Matrix3<Scalar>& corners) {
       if (is_behind_known(corners, standing, work)) return true;
       ++work;
-      const auto closest = gjk(standing.tool(), standing.in_tool(corners, start_), planes_.features().recall_or_guess(triangle), clearance_.touching);
-      planes_.features().remember(triangle, closest.features);
+      const auto closest = gjk(standing.tool(), standing.in_tool(corners, start_), planes_->features().recall_or_guess(triangle), clearance_.touching);
+      planes_->features().remember(triangle, closest.features);
       if (!closest.is_touching && closest.distance > clearance_.kept) {
         add_plane(start_.rotation * closest.normal, standing);
         return true;
       }
       // Of a wall one triangle tells as much as all that it is cut into.
       if (walls_ != nullptr) walls_->know(mesh, triangle, standing, start_);
-      return noticed.push_back({triangle, 0, closest.features});
+      return noticed_.push_back({triangle, 0, closest.features});
     };
     const auto is_wall_parted = [&](int wall, bool) { return walls_->parts_wall(mesh, wall, standing, start_, end_, clearance_); };
-    noticed.is_all = traverse(mesh, standing, work, known_by_number(), is_wall_parted, look_at, [&] { return work <= limit; }) || noticed.full();
+    const bool is_done = traverse(mesh, standing, work, known_by_number(), is_wall_parted, look_at, [&] { return work < limit; });
+    noticed_.is_exhausted = !is_done && !noticed_.full();
     count_hits();
-    return noticed;
+    return noticed_;
   }
 
   /// Whether single planes part the tool over the whole motion from every triangle. They are looked for at its start alone: false may mean
@@ -208,7 +184,7 @@ class Sweep {
     };
     const auto none_is_known = [](int) { return false; };
     const auto none_is_parted = [](int, bool) { return false; };
-    const bool is_done = traverse(mesh, moving, work, none_is_known, none_is_parted, is_parted, [&] { return work <= limit; });
+    const bool is_done = traverse(mesh, moving, work, none_is_known, none_is_parted, is_parted, [&] { return work < limit; });
     count_hits();
     return is_done;
   }
@@ -222,13 +198,60 @@ class Sweep {
     Scalar height;  // of that triangle, relative to the motion's origin [m]
   };
 
+  /// @param is_again  the first triangle to be examined was so before, with less work: what comes of it now is made use of
+  template <class MeshScalar>
+  SweepResult<Scalar> run(const TriangleMesh<MeshScalar>& mesh, const MovingTool<Tool>& moving, int& work, int limit, bool is_again) noexcept {
+    for (; next_known_ < known_.size(); ++next_known_) {
+      const KnownTriangle<Scalar>& pair = known_[next_known_];
+      if (is_parted(mesh, pair.triangle, moving, work) || passes(pair.state.corners, moving)) continue;
+      if (!examine(pair.triangle, pair.state, moving, work, limit, std::exchange(is_again, false))) return exhausted();
+    }
+    const auto is_known = known_by_number();
+    const auto measure = [&](int triangle, const Matrix3<Scalar>& corners) {
+      const PassedTriangle<Scalar> state{corners, Vector::Zero(), planes_->features().recall_or_guess(triangle), false};
+      return examine(triangle, state, moving, work, limit, std::exchange(is_again, false));
+    };
+    // A tool meets the inside of a wall with the vertex that is lowest: what is below that tells when.
+    const auto is_wall_parted = [&](int wall, bool is_inside) {
+      Scalar parted = walls_->parts_wall_until(mesh, wall, moving, start_, end_, clearance_);
+      if (parted >= end_.time) return true;
+      if (parted < Scalar(0)) return false;
+      if (work < limit && walls_->is_asked_first(mesh, wall, moving, start_)) {
+        for (const Scalar time : {parted, end_.time}) {
+          const int triangle = walls_->triangle_below(mesh, wall, moving, start_, time);
+          if (triangle < 0 || is_known(triangle)) continue;
+          const int blockers = result_.blockers.size();
+          if (!measure(triangle, mesh.corners(triangle).template cast<Scalar>().colwise() - moving.origin())) break;
+          if (result_.blockers.size() == blockers) continue;
+          walls_->meet(wall);
+          parted = walls_->parts_wall_until(mesh, wall, moving, start_, end_, clearance_);
+          if (parted >= end_.time) return true;
+          break;
+        }
+      }
+      if (!is_inside || !walls_->has_met(wall)) return false;
+      result_.time = (std::min)(result_.time, parted);
+      return true;
+    };
+    const auto look_at = [&](int triangle, const Matrix3<Scalar>& corners) {
+      const int wall = walls_ != nullptr ? mesh.walls().of_triangle(triangle) : Walls<MeshScalar>::none;
+      const auto& vertices = mesh.triangle(triangle);
+      const auto is_inside = [&mesh](int vertex) { return mesh.walls().is_inside(vertex); };
+      return (wall >= 0 && is_wall_parted(wall, std::all_of(vertices.begin(), vertices.end(), is_inside))) || measure(triangle, corners);
+    };
+    const bool is_done = traverse(mesh, moving, work, is_known, is_wall_parted, look_at, [&] { return work < limit; });
+    count_hits();
+    return is_done ? result_ : exhausted();
+  }
+
   template <class MeshScalar>
   void begin(const TriangleMesh<MeshScalar>& mesh, const MovingTool<Tool>& moving, Scalar until) noexcept {
     start_ = moving.frame_at_start();
+    place_.emplace(Order(moving.motion().linear.template cast<float>()));
     coarse_.begin(moving.origin() - mesh.bvh().origin().template cast<Scalar>(), Scalar(mesh.bounds().diagonal().norm()));
-    planes_.age();
-    planes_.with_tool().age();
-    planes_.begin(moving, start_);
+    planes_->age();
+    planes_->with_tool().age();
+    planes_->begin(moving, start_);
     if (!may_be_near_) find_known_planes(moving);
     if (walls_ != nullptr) {
       walls_->begin(mesh, piece_, moving, start_, may_be_near_);
@@ -238,7 +261,7 @@ class Sweep {
   }
 
   /// Calls `visit(triangle, its corners relative to the motion's origin)` for every triangle not `is_known` that no cached plane passes, and
-  /// `may_go_on()` between, until one call is false; true when it came to the end.
+  /// `may_go_on()` between, until one call is false; true when it came to the end. It goes on where it was.
   template <class MeshScalar, class IsKnown, class IsWallParted, class Visit, class MayGoOn>
   [[gnu::flatten, gnu::noinline]]
   bool traverse(const TriangleMesh<MeshScalar>& mesh, const MovingTool<Tool>& moving, int& work, const IsKnown& is_known,
@@ -248,7 +271,7 @@ class Sweep {
       const Matrix3<Scalar> corners = mesh.corners(triangle).template cast<Scalar>().colwise() - moving.origin();
       return passes(corners, moving) || visit(triangle, corners);
     };
-    const auto plane_count = [this] { return known_planes_.size() + planes_.size(); };
+    const auto plane_count = [this] { return known_planes_.size() + planes_->size(); };
     const auto sift = [&](int node, auto& passed) {
       if (walls_ == nullptr || mesh.walls().count() == 0) return;
       const auto& walls = mesh.walls().under(node);
@@ -257,7 +280,7 @@ class Sweep {
       }
       count_evaluations(work);
     };
-    return visit_unpassed(mesh.bvh(), coarse_, plane_count, Order(moving.motion().linear.template cast<float>()), work, sift, look_at, may_go_on);
+    return visit_unpassed(mesh.bvh(), coarse_, plane_count, *place_, work, sift, look_at, may_go_on);
   }
 
   /// Whether a remembered plane parts the tool from a triangle.
@@ -275,7 +298,9 @@ class Sweep {
     evaluations_ %= evaluations_per_work;
   }
 
-  static SweepResult<Scalar> give_up(SweepResult<Scalar>& result) noexcept {
+  /// The result so far.
+  SweepResult<Scalar> exhausted() const noexcept {
+    SweepResult<Scalar> result = result_;
     result.time = Scalar(0);
     result.is_exhausted = true;
     return result;
@@ -291,26 +316,30 @@ class Sweep {
     };
   }
 
+  /// Measures a triangle; false where the work ran out before it was known how far the motion is free, and nothing came of it.
+  /// @param must_do  then too what is known is made use of
   [[gnu::flatten, gnu::noinline]]
-  void examine(int triangle, const PassedTriangle<Scalar>& state, const MovingTool<Tool>& moving, SweepResult<Scalar>& result,
-               int& work) noexcept {
-    if (!state.is_exact && is_behind_known(state.corners, moving, work)) return;
-    const Passage<Scalar> passage = pass(moving, state, start_, end_, clearance_, work, first_blocked_);
+  bool examine(int triangle, const PassedTriangle<Scalar>& state, const MovingTool<Tool>& moving, int& work, int limit, bool must_do) noexcept {
+    if (work >= limit) return false;
+    if (!state.is_exact && is_behind_known(state.corners, moving, work)) return true;
+    const Passage<Scalar> passage = pass(moving, state, start_, end_, clearance_, work, first_blocked_, limit);
     if (!passage.is_blocked) {
       if (passage.normal.squaredNorm() > Scalar(0) && !state.is_exact) {
         add_plane(passage.normal, moving);
-        if (passage.turns) planes_.with_tool().add(end_.rotation.transpose() * passage.normal, moving, start_, end_, clearance_.kept);
-        planes_.features().remember(triangle, passage.features);
+        if (passage.turns) planes_->with_tool().add(end_.rotation.transpose() * passage.normal, moving, start_, end_, clearance_.kept);
+        planes_->features().remember(triangle, passage.features);
       }
-      return;
+      return true;
     }
     // Beside a wall that the tool slides along there may be a way that leads nowhere near it in any other direction.
-    if (state.is_exact && is_behind_known(state.corners, moving, work)) return;
-    result.add({triangle, passage.time, 0, passage.features});
+    if (state.is_exact && is_behind_known(state.corners, moving, work)) return true;
+    if (passage.is_cut && !must_do) return false;
+    result_.add({triangle, passage.time, 0, passage.features});
     first_blocked_ = (std::min)(first_blocked_, passage.time);
-    result.time = (std::min)(result.time, passage.time);
-    const Scalar end = worth_certifying(result.time, clearance_, moving);
+    result_.time = (std::min)(result_.time, passage.time);
+    const Scalar end = worth_certifying(result_.time, clearance_, moving);
     if (end < end_.time) set_end(moving, end);
+    return true;
   }
 
   /// Whether a triangle lies in or behind the plane that parts a known one from the tool: then it is no nearer than that one, as seen along the
@@ -335,20 +364,20 @@ class Sweep {
   [[gnu::flatten, gnu::noinline]]
   void set_end(const MovingTool<Tool>& moving, Scalar time) noexcept {
     end_ = moving.frame_at(time);
-    planes_.end(moving, end_, clearance_.kept);
-    planes_.with_tool().set_motion(moving, start_, end_, clearance_.kept);
+    planes_->end(moving, end_, clearance_.kept);
+    planes_->with_tool().set_motion(moving, start_, end_, clearance_.kept);
     if (walls_ != nullptr) walls_->end(end_);
     const Scalar kept = clearance_.kept;
-    for (int k = 0; k < 3; ++k) coarse_.set_sides(k, planes_.box().lower(k) - kept, planes_.box().upper(k) + kept);
+    for (int k = 0; k < 3; ++k) coarse_.set_sides(k, planes_->box().lower(k) - kept, planes_->box().upper(k) + kept);
     for (int i = 0; i < known_planes_.size(); ++i) coarse_.set_plane(i, known_planes_[i].normal, known_planes_[i].height);
-    for (int i = 0; i < planes_.size(); ++i) coarse_.set_plane(known_planes_.size() + i, planes_.normal(i), planes_.limit(i));
+    for (int i = 0; i < planes_->size(); ++i) coarse_.set_plane(known_planes_.size() + i, planes_->normal(i), planes_->limit(i));
   }
 
   [[gnu::flatten, gnu::noinline]]
   void add_plane(const Vector& normal, const MovingTool<Tool>& moving) noexcept {
     count_hits();
-    const int i = planes_.add(normal, moving, start_, end_, clearance_.kept);
-    coarse_.set_plane(known_planes_.size() + i, normal, planes_.limit(i));
+    const int i = planes_->add(normal, moving, start_, end_, clearance_.kept);
+    coarse_.set_plane(known_planes_.size() + i, normal, planes_->limit(i));
   }
 
   /// The planes that part the tool from known triangles near it: what lies behind one is hidden, box by box.
@@ -367,20 +396,20 @@ class Sweep {
   Scalar flat() const noexcept { return clearance_.kept / 1000; }
 
   void count_hits() noexcept {
-    coarse_.take_hits(known_planes_.size() + planes_.size(), [this](int i, int hits) {
-      if (i >= known_planes_.size()) planes_.count_hits(i - known_planes_.size(), hits);
+    coarse_.take_hits(known_planes_.size() + planes_->size(), [this](int i, int hits) {
+      if (i >= known_planes_.size()) planes_->count_hits(i - known_planes_.size(), hits);
     });
   }
 
   [[gnu::flatten, gnu::noinline]]
   bool passes(const Matrix3<Scalar>& corners, const MovingTool<Tool>& moving) noexcept {
-    if (last_ < planes_.size() && passes(corners, last_)) return true;
-    const int turning = planes_.with_tool().parting(corners);
+    if (last_ < planes_->size() && passes(corners, last_)) return true;
+    const int turning = planes_->with_tool().parting(corners);
     if (turning >= 0) {
-      if (planes_.with_tool().lend(turning)) add_plane(planes_.with_tool().normal_at_end(turning), moving);
+      if (planes_->with_tool().lend(turning)) add_plane(planes_->with_tool().normal_at_end(turning), moving);
       return true;
     }
-    for (int i = 0; i < planes_.size(); ++i) {
+    for (int i = 0; i < planes_->size(); ++i) {
       if (i == last_ || !passes(corners, i)) continue;
       last_ = i;
       return true;
@@ -389,20 +418,24 @@ class Sweep {
   }
 
   bool passes(const Matrix3<Scalar>& corners, int i) noexcept {
-    const Scalar height = highest_corner(corners, planes_.normal(i));
-    if (!(height <= planes_.limit(i) || (may_be_near_ && planes_.parts_closely(i, height, clearance_)))) return false;
-    planes_.count_hits(i, 1);
+    const Scalar height = highest_corner(corners, planes_->normal(i));
+    if (!(height <= planes_->limit(i) || (may_be_near_ && planes_->parts_closely(i, height, clearance_)))) return false;
+    planes_->count_hits(i, 1);
     return true;
   }
 
-  PlaneCache<Scalar>& planes_;
-  Clearance<Scalar> clearance_;
+  PlaneCache<Scalar>* planes_;
   WallPlanes<Scalar>* walls_;
+  Clearance<Scalar> clearance_;
   int piece_;
   int evaluations_ = 0;  // of heights above remembered planes, since the work last grew for it
   std::span<const KnownTriangle<Scalar>> known_;
   bool may_be_near_ = true;  // a motion may end nearer than `Clearance::kept`, where it started so
   Scalar first_blocked_ = std::numeric_limits<Scalar>::infinity();  // time of the first blocker so far
+  SweepResult<Scalar> result_;  // so far
+  NoticedTriangles noticed_;    // likewise
+  std::size_t next_known_ = 0;  // first of the known triangles that is not examined
+  std::optional<TraversalPlace<Order>> place_;
   Frame start_;
   Frame end_;
   int hidden_ = 0;  // triangles looked at whether a known wall hides them, since the work last grew for it

@@ -29,53 +29,66 @@ void in_groups_of(std::span<const std::int32_t> entries, const Find& find, const
 
 }  // namespace detail
 
-/// Calls `visit(triangle)` for every triangle that none of the planes passes, and `may_go_on()` between, until one call is false; true when it came
-/// to the end. Both may change the planes.
+/// Where a traversal has come to: it may go on later, as long as hierarchy and planes are the same.
+template <class Order>
+struct TraversalPlace {
+  /// Before the root.
+  /// @param order  with the root in it: `NearestFirst` or `InBatches`
+  explicit TraversalPlace(const Order& order) noexcept : waiting(order) {}
+
+  Order waiting;
+  std::array<std::int32_t, std::size_t(Order::leaves_at_once * BvhLeaf::width + 1)> unpassed;  // triangles; one more is written, and not counted
+  std::size_t unpassed_count = 0, next = 0;  // of them, and the first that was not visited
+  int uncounted = 0;                         // nodes and leaves since the work last grew
+};
+
+/// Calls `visit(triangle)` for every triangle that none of the planes passes, and `may_go_on()` before, until one call is false; true when it came
+/// to the end. Both may change the planes. Called again with the same `place` it goes on there: with the triangle that it ended at.
 /// @param sift         `sift(node, passed)` may mark more of a node's children as passed
 /// @param planes       `CoarsePlanes`
 /// @param plane_count  `plane_count()` is how many they are
-/// @param waiting      an order of visits with the root in it: `NearestFirst` or `InBatches`
 /// @param work         grows by the work done
 template <class Scalar, class Planes, class PlaneCount, class Order, class Sift, class Visit, class MayGoOn>
-bool visit_unpassed(const Bvh<Scalar>& bvh, Planes& planes, const PlaneCount& plane_count, Order waiting, int& work,
+bool visit_unpassed(const Bvh<Scalar>& bvh, Planes& planes, const PlaneCount& plane_count, TraversalPlace<Order>& place, int& work,
                     const Sift& sift, const Visit& visit, const MayGoOn& may_go_on) noexcept {
-  int count = 0;
-  while (!waiting.empty()) {
-    const std::span<const std::int32_t> next = waiting.take();
-    count += int(next.size());
-    work += count / nodes_per_work;
-    count %= nodes_per_work;
+  for (;;) {
+    while (place.next < place.unpassed_count) {
+      if (!may_go_on()) return false;
+      if (!visit(int(place.unpassed[place.next]))) return false;
+      ++place.next;
+    }
+    if (place.waiting.empty()) return true;
     if (!may_go_on()) return false;
+    const std::span<const std::int32_t> next = place.waiting.take();
+    place.uncounted += int(next.size());
+    work += place.uncounted / nodes_per_work;
+    place.uncounted %= nodes_per_work;
     if (!BvhNode::is_leaf(next.front())) {
       const auto node_of = [&](std::int32_t entry) { return &bvh.nodes()[std::size_t(entry)]; };
       detail::in_groups_of<Order::side_by_side>(next, node_of, [&](const auto& nodes) {
         auto passed = planes.passed(nodes, plane_count());
         for (std::size_t i = 0; i < nodes.size(); ++i) {
           sift(int(nodes[i] - bvh.nodes().data()), passed[i]);
-          waiting.push_children(*nodes[i], passed[i]);
+          place.waiting.push_children(*nodes[i], passed[i]);
         }
       });
       continue;
     }
-    std::array<std::int32_t, std::size_t(Order::leaves_at_once * BvhLeaf::width + 1)> unpassed;  // one more is written, and not counted
-    std::size_t unpassed_count = 0;
+    std::size_t count = 0;
     const auto leaf_of = [&](std::int32_t entry) { return &bvh.leaves()[std::size_t(~entry)]; };
     detail::in_groups_of<Order::side_by_side>(next, leaf_of, [&](const auto& leaves) {
       const auto passed = planes.passed(leaves, plane_count());
       for (std::size_t i = 0; i < leaves.size(); ++i) {
         for (std::size_t lane = 0; lane < passed[i].size(); ++lane) {
           const std::int32_t triangle = leaves[i]->triangle[lane];
-          unpassed[unpassed_count] = triangle;
-          unpassed_count += std::size_t((passed[i][lane] == 0) & (triangle >= 0));
+          place.unpassed[count] = triangle;
+          count += std::size_t((passed[i][lane] == 0) & (triangle >= 0));
         }
       }
     });
-    for (std::size_t i = 0; i < unpassed_count; ++i) {
-      if (i > 0 && i % BvhLeaf::width == 0 && !may_go_on()) return false;  // as leaf by leaf
-      if (!visit(int(unpassed[i]))) return false;
-    }
+    place.unpassed_count = count;
+    place.next = 0;
   }
-  return true;
 }
 
 }  // namespace feeler

@@ -5,6 +5,7 @@
 #include <array>
 #include <bitset>
 #include <limits>
+#include <optional>
 #include <span>
 #include <type_traits>
 #include <vector>
@@ -19,7 +20,7 @@
 namespace feeler {
 
 /// Certifies motions in a scene, and keeps the planes that parted the tool from its surroundings for the next motion: those of each piece,
-/// and those of the groups that the pieces of a compound tool are in.
+/// and those of the groups that the pieces of a compound tool are in. What a tick has no work for the next may go on with.
 template <RigidTool ToolType>
 class MotionCertificate {
  public:
@@ -42,43 +43,26 @@ class MotionCertificate {
   /// How far a motion is free; of one that turns by more than 3 rad only as much is looked at.
   /// @param from    pose of the reference point
   /// @param work    grows by the work done
-  /// @param limit   value of `work` at which it gives up
+  /// @param limit   value of `work` at which it stops: `go_on` does the rest
   /// @param pairs   what is known near the tool at `from`: looked at first, and exactly, but for those beyond `reach` [m]
   template <int pair_capacity = 1>
   SweepResult<Scalar> certify(const Scene& scene, const Pose<Scalar>& from, const Twist<Scalar>& motion, int& work, int limit,
                               const WorkingSet<Scalar, pair_capacity>& pairs = {}, Scalar reach = std::numeric_limits<Scalar>::infinity()) noexcept {
     const Scalar turn = motion.angular.norm();
-    Scalar until = turn > longest_turn ? longest_turn / turn : Scalar(1);
-    if constexpr (!CompoundShape<ToolType>) {
-      return certify_piece(0, scene, scene.moving(0, from, motion), work, limit, pairs, reach, until, std::numeric_limits<Scalar>::infinity());
-    } else {
-      is_near_ = find_near_pieces(scene, from, motion, work, limit);
-      SweepResult<Scalar> result;
-      result.time = until;
-      Scalar first_blocked = std::numeric_limits<Scalar>::infinity();
-      for (int piece = 0; piece < scene.piece_count(); ++piece) {
-        if (!is_near_[std::size_t(piece)]) continue;
-        const MovingTool<Piece> moving = scene.moving(piece, from, motion);
-        const auto passed = certify_piece(piece, scene, moving, work, limit, pairs, reach, until, first_blocked);
-        for (Blocker<Scalar> blocker : passed.blockers) {
-          blocker.piece = piece;
-          first_blocked = (std::min)(first_blocked, blocker.time);
-          result.add(blocker);
-        }
-        if (passed.is_exhausted) {
-          result.is_exhausted = true;
-          result.time = Scalar(0);
-          break;
-        }
-        result.time = (std::min)(result.time, passed.time);
-        if (passed.blockers.empty()) {
-          until = passed.time;
-          continue;
-        }
-        until = (std::min)(until, worth_certifying(result.time, scene.clearance(), moving));
-      }
-      return result;
+    begin(from, motion, reach);
+    until_ = turn > longest_turn ? longest_turn / turn : Scalar(1);
+    result_.time = until_;
+    if constexpr (CompoundShape<ToolType>) {
+      is_near_.reset();
+      next_group_ = 0;
     }
+    return run(scene, work, limit, pairs, false);
+  }
+  /// After `certify`, or this, was exhausted: the rest of it.
+  /// @param pairs  the same
+  template <int pair_capacity>
+  SweepResult<Scalar> go_on(const Scene& scene, int& work, int limit, const WorkingSet<Scalar, pair_capacity>& pairs) noexcept {
+    return run(scene, work, limit, pairs, true);
   }
 
   /// Triangles that are no pairs and that are nearer than the margin where the last motion certified ended; what rests at the margin is not.
@@ -87,28 +71,47 @@ class MotionCertificate {
   template <int pair_capacity>
   NoticedTriangles notice(const Scene& scene, const Pose<Scalar>& at, int& work, int limit, const WorkingSet<Scalar, pair_capacity>& pairs,
                           Scalar reach) noexcept {
-    NoticedTriangles result;
-    if (pairs.has_no_clearance(scene.clearance().none())) return result;
-    for (int piece = 0; piece < scene.piece_count(); ++piece) {
+    begin(at, {}, reach);
+    noticed_ = {};
+    return go_on_noticing(scene, work, limit, pairs);
+  }
+  /// After `notice`, or this, was exhausted: the rest of it, with what came before.
+  /// @param pairs  the same
+  template <int pair_capacity>
+  NoticedTriangles go_on_noticing(const Scene& scene, int& work, int limit, const WorkingSet<Scalar, pair_capacity>& pairs) noexcept {
+    noticed_.is_exhausted = false;
+    if (pairs.has_no_clearance(scene.clearance().none())) return noticed_;
+    for (; piece_ < scene.piece_count(); ++piece_) {
       if constexpr (CompoundShape<ToolType>) {
-        if (!is_near_[std::size_t(piece)]) continue;
+        if (!is_near_[std::size_t(piece_)]) continue;
       }
-      const MovingTool<Piece> standing = scene.moving(piece, at, {});
-      Clearance<Scalar> clearance = scene.clearance_for(standing);
-      clearance.kept = (std::max)(clearance.kept, scene.noticed());
+      const MovingTool<Piece> standing = scene.moving(piece_, from_, {});
       FixedVector<KnownTriangle<Scalar>, pair_capacity> known;
       for (int i = 0; i < pairs.size(); ++i) {
         const auto& pair = pairs[i];
-        if (pair.piece != piece || pair.is_beyond(reach)) continue;
+        if (pair.piece != piece_ || pair.is_beyond(reach_)) continue;
         const Vector3<Scalar>& normal = pair.last_normal.isZero(Scalar(0)) ? pair.normal : pair.last_normal;
         known.push_back({pair.triangle, {.corners = pair.corners_world.colwise() - standing.origin(), .normal = normal, .features = pair.features}});
       }
-      const NoticedTriangles noticed = Sweep<Piece, Order>(planes_[std::size_t(piece)], clearance, &walls_, piece)
-                                           .notice(scene.object(), standing, {known.begin(), std::size_t(known.size())}, work, limit);
-      result.is_all = result.is_all && noticed.is_all;
-      for (const Noticed& triangle : noticed) result.push_back({triangle.triangle, piece, triangle.features});
+      const std::span<const KnownTriangle<Scalar>> all{known.begin(), std::size_t(known.size())};
+      NoticedTriangles noticed;
+      if (is_in_piece_) {
+        sweep_->work_with(planes_[std::size_t(piece_)], &walls_);
+        noticed = sweep_->go_on_noticing(scene.object(), standing, all, work, limit);
+      } else {
+        Clearance<Scalar> clearance = scene.clearance_for(standing);
+        clearance.kept = (std::max)(clearance.kept, scene.noticed());
+        sweep_.emplace(planes_[std::size_t(piece_)], clearance, &walls_, piece_);
+        noticed = sweep_->notice(scene.object(), standing, all, work, limit);
+      }
+      is_in_piece_ = noticed.is_exhausted;
+      if (is_in_piece_) {
+        noticed_.is_exhausted = true;
+        break;
+      }
+      for (const Noticed& triangle : noticed) noticed_.push_back({triangle.triangle, piece_, triangle.features});
     }
-    return result;
+    return noticed_;
   }
 
  private:
@@ -129,63 +132,135 @@ class MotionCertificate {
   /// Of half a turn the poses at its ends do not tell which way round it went [rad].
   static constexpr Scalar longest_turn = Scalar(3);
 
-  /// The pieces that no group shows to pass everything.
-  std::bitset<std::size_t(maximum_pieces<ToolType>)> find_near_pieces(const Scene& scene, const Pose<Scalar>& from, const Twist<Scalar>& motion,
-                                                                      int& work, int limit) noexcept
+  void begin(const Pose<Scalar>& from, const Twist<Scalar>& motion, Scalar reach) noexcept {
+    from_ = from;
+    motion_ = motion;
+    reach_ = reach;
+    result_ = {};
+    first_blocked_ = std::numeric_limits<Scalar>::infinity();
+    piece_ = 0;
+    is_in_piece_ = false;
+  }
+
+  /// @param is_again  what the work did not suffice for is begun again
+  template <int pair_capacity>
+  SweepResult<Scalar> run(const Scene& scene, int& work, int limit, const WorkingSet<Scalar, pair_capacity>& pairs, bool is_again) noexcept {
+    if constexpr (CompoundShape<ToolType>) {
+      if (!find_near_pieces(scene, work, limit, is_again)) return exhausted();
+    }
+    for (; piece_ < scene.piece_count(); ++piece_) {
+      if constexpr (CompoundShape<ToolType>) {
+        if (!is_near_[std::size_t(piece_)]) continue;
+      }
+      const MovingTool<Piece> moving = scene.moving(piece_, from_, motion_);
+      const auto passed = certify_piece(scene, moving, work, limit, pairs);
+      is_in_piece_ = passed.is_exhausted;
+      if (is_in_piece_) return exhausted(passed);
+      take(passed);
+      until_ = passed.blockers.empty() ? passed.time : (std::min)(until_, worth_certifying(result_.time, scene.clearance(), moving));
+    }
+    return result_;
+  }
+
+  /// Adds the result of a piece.
+  void take(const SweepResult<Scalar>& passed) noexcept {
+    for (Blocker<Scalar> blocker : passed.blockers) {
+      blocker.piece = piece_;
+      first_blocked_ = (std::min)(first_blocked_, blocker.time);
+      result_.add(blocker);
+    }
+    result_.time = (std::min)(result_.time, passed.time);
+  }
+
+  /// The result so far.
+  /// @param passed  of the piece at hand
+  SweepResult<Scalar> exhausted(const SweepResult<Scalar>& passed = {}) const noexcept {
+    SweepResult<Scalar> result = result_;
+    for (Blocker<Scalar> blocker : passed.blockers) {
+      blocker.piece = piece_;
+      result.add(blocker);
+    }
+    result.time = Scalar(0);
+    result.is_exhausted = true;
+    return result;
+  }
+
+  /// Finds the pieces that no group shows to pass everything; false where the work ran out.
+  bool find_near_pieces(const Scene& scene, int& work, int limit, bool is_again) noexcept
     requires CompoundShape<ToolType>
   {
-    std::bitset<std::size_t(maximum_pieces<ToolType>)> is_near;
     const auto nodes = scene.piece_groups();
-    for (std::size_t i = 0; i < nodes.size(); ++i) {
-      const auto& node = nodes[i];
+    for (; next_group_ < nodes.size(); ++next_group_) {
+      const auto& node = nodes[next_group_];
       if (node.is_single()) {
-        is_near.set(std::size_t(node.index));
-      } else if (passes(groups_[std::size_t(node.index)], scene, scene.moving(node, from, motion), work, limit)) {
-        i += std::size_t(node.subtree_size() - 1);
+        is_near_.set(std::size_t(node.index));
+        continue;
       }
+      Group& group = groups_[std::size_t(node.index)];
+      if (group.rest > 0) {
+        --group.rest;
+        continue;
+      }
+      if (work >= limit) return false;
+      const bool is_clear = passes(group, scene, scene.moving(node, from_, motion_), work, limit);
+      if (!is_clear && work >= limit && !is_again) return false;
+      is_again = false;
+      if (is_clear) next_group_ += std::size_t(node.subtree_size() - 1);
+      else group.rest = rest_after_failure;
     }
-    return is_near;
+    return true;
   }
 
   static bool passes(Group& group, const Scene& scene, const MovingTool<Box<Scalar>>& moving, int& work, int limit) noexcept {
-    if (group.rest > 0) {
-      --group.rest;
-      return false;
-    }
     Clearance<Scalar> clearance = scene.clearance_for(moving);
     clearance.kept = (std::max)(clearance.kept, scene.noticed());
-    const bool is_clear = Sweep<Box<Scalar>>(group.planes, clearance).parts(scene.object(), moving, work, limit);
-    if (!is_clear) group.rest = rest_after_failure;
-    return is_clear;
+    return Sweep<Box<Scalar>>(group.planes, clearance).parts(scene.object(), moving, work, limit);
   }
 
-  /// As `certify`, for one piece and the times up to `until`; of those before it one is blocked at `first_blocked`.
+  /// Certifies the piece at hand, or goes on with it.
   template <int pair_capacity>
-  SweepResult<Scalar> certify_piece(int piece, const Scene& scene, const MovingTool<Piece>& moving, int& work, int limit,
-                                    const WorkingSet<Scalar, pair_capacity>& pairs, Scalar reach, Scalar until,
-                                    Scalar first_blocked) noexcept {
+  SweepResult<Scalar> certify_piece(const Scene& scene, const MovingTool<Piece>& moving, int& work, int limit,
+                                    const WorkingSet<Scalar, pair_capacity>& pairs) noexcept {
+    FixedVector<KnownTriangle<Scalar>, pair_capacity> known;
+    for (int i = 0; i < pairs.size(); ++i) {
+      const auto& pair = pairs[i];
+      if (pair.piece != piece_ || pair.is_beyond(reach_)) continue;
+      known.push_back({pair.triangle, {pair.corners_world.colwise() - moving.origin(), pair.normal, pair.features, true, pair.last_normal}});
+    }
+    const std::span<const KnownTriangle<Scalar>> all{known.begin(), std::size_t(known.size())};
+    if (is_in_piece_) {
+      sweep_->work_with(planes_[std::size_t(piece_)], &walls_);
+      return sweep_->go_on(scene.object(), moving, all, work, limit);
+    }
     Clearance<Scalar> clearance = scene.clearance_for(moving);
     // A ball that slides in a fit comes as near to the next triangle of a wall as it is to this one. What to keep is safe to judge by the
     // nearest, because the core stays a radius away.
     if constexpr (SweptTool<Piece>) {
       for (int i = 0; i < pairs.size(); ++i) {
-        if (pairs[i].piece == piece) clearance.kept = (std::min)(clearance.kept, clearance.required(pairs[i].slack));
+        if (pairs[i].piece == piece_) clearance.kept = (std::min)(clearance.kept, clearance.required(pairs[i].slack));
       }
     }
-    FixedVector<KnownTriangle<Scalar>, pair_capacity> known;
-    for (int i = 0; i < pairs.size(); ++i) {
-      const auto& pair = pairs[i];
-      if (pair.piece != piece || pair.is_beyond(reach)) continue;
-      known.push_back({pair.triangle, {pair.corners_world.colwise() - moving.origin(), pair.normal, pair.features, true, pair.last_normal}});
-    }
-    return Sweep<Piece, Order>(planes_[std::size_t(piece)], clearance, &walls_, piece)
-        .certify(scene.object(), moving, {known.begin(), std::size_t(known.size())}, work, limit, until, first_blocked);
+    sweep_.emplace(planes_[std::size_t(piece_)], clearance, &walls_, piece_);
+    return sweep_->certify(scene.object(), moving, all, work, limit, until_, first_blocked_);
   }
 
   std::vector<PlaneCache<Scalar>> planes_;  // of the pieces
   std::bitset<std::size_t(maximum_pieces<ToolType>)> is_near_;  // pieces, on the last motion
   WallPlanes<Scalar> walls_;
   std::vector<Group> groups_;
+
+  // The motion at hand, and how far it has been looked at.
+  Pose<Scalar> from_;
+  Twist<Scalar> motion_;
+  Scalar reach_ = Scalar(0);
+  Scalar until_ = Scalar(1);          // time that is still of interest
+  Scalar first_blocked_ = Scalar(0);  // time
+  SweepResult<Scalar> result_;        // of the pieces before
+  NoticedTriangles noticed_;          // likewise
+  std::size_t next_group_ = 0;
+  int piece_ = 0;
+  bool is_in_piece_ = false;  // it is begun
+  std::optional<Sweep<Piece, Order>> sweep_;
 };
 
 }  // namespace feeler

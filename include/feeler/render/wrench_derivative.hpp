@@ -34,6 +34,7 @@ template <class Follower>
 concept HasStepProblem = requires(const Follower& follower) {
   follower.target().translation;
   follower.problem().solution().active;
+  follower.problem().is_solved();
   curvature_of(follower.problem().row(0));
 };
 
@@ -220,6 +221,7 @@ noexcept {
     if (rest.norm() > dependent * share.gradient.norm())
       across += rest.normalized() * rest.normalized().transpose();
   }
+  if (!problem.is_solved()) across.setIdentity();  // the work ran out before the next step was known: the tool stays
   const Matrix6<Scalar> along = Matrix6<Scalar>::Identity() - across;
   const auto scaled = [&](const Matrix6<Scalar>& m) {
     return Matrix6<Scalar>(unit.asDiagonal() * m * unit.asDiagonal());

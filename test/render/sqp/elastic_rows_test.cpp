@@ -30,7 +30,7 @@ struct Fit {
     problem.add_row(row, soft);
     rows.add(soft, hard);
   }
-  int solve(double price) { return rows.solve(solver, problem, price, 1e-12, {}, solution); }
+  int solve(double price) { return rows.solve(solver, problem, price, 1e-12, 24, {}, solution); }
 };
 
 Vector6<double> along(int axis, double sign) {

@@ -50,11 +50,14 @@ class ElasticRows {
   /// @param problem  its Hessian, gradient and rows are given; its bounds become those that hold
   /// @param price    c
   /// @param least    smallest change of ξ worth a QP: some tolerances of the solver [m]
+  /// @param most_solves  QPs; with the last one all rows are relaxed
   /// @param start    rows that are likely to be active
   /// @return  QPs solved, or 0 where not even the hard bounds have a solution, to the solver's tolerance
-  /// @cost    noexcept, no allocation; one QP where nothing is to be relaxed, `maximum_solves` at most
+  /// @cost    noexcept, no allocation; one QP where nothing is to be relaxed, 24 or `most_solves` at most
   template <QpSolver Solver>
-  int solve(Solver& solver, QpProblem<Scalar>& problem, Scalar price, Scalar least, const WarmStart& start, QpSolution<Scalar>& solution) noexcept {
+  int solve(Solver& solver, QpProblem<Scalar>& problem, Scalar price, Scalar least, int most_solves, const WarmStart& start,
+            QpSolution<Scalar>& solution) noexcept {
+    const int maximum_solves = (std::min)(most_solves, 24);
     const Scalar most = relaxation_at_rest();
     Scalar low(0), high = most;  // the relaxation lies between
     bool is_least = true;        // with less than the one at hand there is no solution
@@ -101,7 +104,6 @@ class ElasticRows {
   }
 
  private:
-  static constexpr int maximum_solves = 24;
   static constexpr int most_rows = QpSolution<Scalar>::active_capacity;
   using Columns = Eigen::Matrix<Scalar, 6, Eigen::Dynamic, 0, 6, most_rows>;
   using Weights = Eigen::Matrix<Scalar, Eigen::Dynamic, 1, 0, most_rows, 1>;

@@ -1,6 +1,7 @@
 // The working set and its rows, at one pose at a time: measured only where a step may meet them, and only where the tool has moved.
 #pragma once
 
+#include <limits>
 #include <optional>
 
 #include "feeler/contact/contact_patch.hpp"
@@ -40,12 +41,14 @@ class Linearisation {
   static constexpr bool is_convex = maximum_pieces<ToolType> == 1;
   using Pairs = WorkingSet<Scalar, 256>;
   using Problem = StepProblem<Solver, 256, Row>;
+  static constexpr int unlimited = (std::numeric_limits<int>::max)();
 
   explicit Linearisation(const Scene& scene) : near_vertices_(largest_vertex_count(scene)) {}
 
   void clear() noexcept {
     pairs_.clear();
     problem_.forget();
+    stops_.clear();
     has_rows_ = false;
     planes_ = 0;
   }
@@ -59,17 +62,21 @@ class Linearisation {
   /// Whether nothing was near.
   bool is_empty() const noexcept { return problem_.row_count() == 0 && !leaves_out_pairs_; }
 
-  /// Rows where a motion starts, and the planes that its certificate starts from.
+  /// Rows where a motion starts, and the planes that its certificate starts from; false where the work ran out, and `go_on` measures the rest.
   /// @param pose   certified
   /// @param reach  what is farther from the tool cannot stop the next step [m]
-  void start_measured(const Scene& scene, const Pose<Scalar>& pose, Scalar reach, Tick<MeshScalar>& tick) noexcept {
+  /// @param limit  of `tick.work`, here and below
+  bool start_measured(const Scene& scene, const Pose<Scalar>& pose, Scalar reach, Tick<MeshScalar>& tick, int limit = unlimited) noexcept {
     start_at(pose, reach);
-    measure_near_pairs(scene, tick);
+    begin_to_measure();
+    return go_on(scene, tick, limit);
   }
+  /// Measures what a start, or this, had no work for; false where the work ran out again.
+  bool go_on(const Scene& scene, Tick<MeshScalar>& tick, int limit = unlimited) noexcept { return measure_near_pairs(scene, tick, limit); }
 
-  /// The same with the rows of the last linearisation; false, and nothing is measured, where that was not near, or a plane of it parts its pair
-  /// by less than a certificate requires.
-  bool start_carried(const Scene& scene, const Pose<Scalar>& pose, Scalar reach, Tick<MeshScalar>& tick) noexcept {
+  /// The same with the rows of the last linearisation; false where that was not near, or a plane of it parts its pair by less than a certificate
+  /// requires, or the work ran out.
+  bool start_carried(const Scene& scene, const Pose<Scalar>& pose, Scalar reach, Tick<MeshScalar>& tick, int limit = unlimited) noexcept {
     if (!has_rows_ || problem_.rests_on_kept()) return false;  // rows of the features that the tool was to leave
     const Twist<Scalar> motion = scene.idle_turns().motion_between(pose_, pose);
     if (scene.length_of(motion, pose) > Scalar(scene.settings().step_tolerance)) return false;
@@ -86,20 +93,21 @@ class Linearisation {
     });
     if (!are_carried) return false;
     for (Pair& pair : pairs_) {
-      if (pair.state == PairState::left_out) measure_if_near(scene, pair, tick);
+      if (pair.state == PairState::left_out && !measure_if_near(scene, pair, tick, limit)) return has_rows_ = false;
     }
-    measure_nearer(scene, tick);
+    has_rows_ = measure_nearer(scene, tick, limit);
     tick.rows = problem_.row_count();
-    return true;
+    return has_rows_;
   }
 
-  /// Rows where a step ended.
+  /// Rows where a step ended; false where the work ran out, and some are missing.
   /// @param assumes_valleys  as `ContactPatch` has it
-  void move_to(const Scene& scene, const Pose<Scalar>& pose, bool assumes_valleys, Tick<MeshScalar>& tick) noexcept {
+  bool move_to(const Scene& scene, const Pose<Scalar>& pose, bool assumes_valleys, Tick<MeshScalar>& tick, int limit = unlimited) noexcept {
     put_at(pose);
     is_at_start_ = false;
     assumes_valleys_ = assumes_valleys;
-    measure_near_pairs(scene, tick);
+    begin_to_measure();
+    return measure_near_pairs(scene, tick, limit);
   }
 
   /// The rows of the last pose where a capped step ended: what holds the tool there is known, and the next motion measures it. False where
@@ -113,19 +121,20 @@ class Linearisation {
     return carry_rows(scene, motion, tick, [](const Row&, const Pair&) { return true; });
   }
 
-  /// Adds the rows of pairs left out whose planes a step crosses; false if there are none.
-  bool add_crossed(const Scene& scene, const Twist<Scalar>& step, Tick<MeshScalar>& tick) noexcept {
+  /// Adds the rows of pairs left out whose planes a step crosses, as far as the work goes; false if there are none.
+  bool add_crossed(const Scene& scene, const Twist<Scalar>& step, Tick<MeshScalar>& tick, int limit = unlimited) noexcept {
     if (!leaves_out_pairs_) return false;
     const Pose<Scalar> end = scene.idle_turns().moved(pose_, step);
     const Matrix3<Scalar> axes = end.rotation.toRotationMatrix();
     bool adds = false;
     for (Pair& pair : pairs_) {
       if (pair.state != PairState::left_out || pair.is_beyond(reach_)) continue;
+      if (tick.work >= limit) break;
       if (slack_along(scene, pair, pair.normal, end, axes, tick) > scene.margin()) continue;
       measure(scene, pair, tick);
       adds = true;
     }
-    measure_nearer(scene, tick);
+    measure_nearer(scene, tick, limit);
     tick.rows = problem_.row_count();
     return adds;
   }
@@ -140,24 +149,31 @@ class Linearisation {
     return kept_.keep_broken(so_far, motion, scene.margin(), problem_);
   }
 
-  /// Remembers what stopped a step, but for what was assumed.
+  /// What stopped a step.
+  struct Stop {
+    Row row;                                          // where the step began
+    Scalar multiplier;                                // of the metric [m]
+    Scalar gap;                                       // after the step [m]
+  };
+
+  /// Remembers what stopped a step.
   void remember_stops(const Twist<Scalar>& step) noexcept {
     stops_.clear();
     stopped_ = step;
     for (const auto& active : problem_.solution().active) {
-      const Row& row = problem_.row(active.row);
-      if (!row.is_assumed) stops_.push_back(row);
+      stops_.push_back({problem_.row(active.row), active.multiplier, problem_.gap_after(active.row)});
     }
   }
+  const auto& stops() const noexcept { return stops_; }
   /// The step last remembered.
   const Twist<Scalar>& stopped() const noexcept { return stopped_; }
-  /// Adds what stopped the last step to the rows where it ended; false if they have it all.
+  /// Adds what stopped the last step, but for what was assumed, to the rows where it ended; false if they have it all.
   bool keep_stops(const Scene& scene) noexcept {
     bool adds = false;
     const Displacement<Scalar> stopped = stopped_;
-    for (const Row& stop : stops_) {
-      const Row row = stop.carried(stopped);
-      if (problem_.repeats(row)) continue;
+    for (const Stop& stop : stops_) {
+      const Row row = stop.row.carried(stopped);
+      if (row.is_assumed || problem_.repeats(row)) continue;
       adds = problem_.keep(row, certified_gap(scene, pairs_[pairs_.find(row.piece, row.triangle)])) || adds;
     }
     return adds;
@@ -236,28 +252,31 @@ class Linearisation {
     reach_ = reach;
     has_rows_ = false;
     kept_.clear();
+    forget_nearer();
+  }
+
+  void begin_to_measure() noexcept {
+    problem_.clear();
+    walls_.clear();
+    forget_nearer();
+    quiet_.clear();
+    next_pair_ = next_quiet_ = 0;
   }
 
   /// Those last that may be covered by others. In a fit all around a tool of several pieces the next step may take any of many pairs, and each is
-  /// measured.
-  void measure_near_pairs(const Scene& scene, Tick<MeshScalar>& tick) noexcept {
-    problem_.clear();
-    walls_.clear();
-    if constexpr (is_convex) {
-      FixedVector<int, Pairs::capacity> quiet;
-      for (int i = 0; i < pairs_.size(); ++i) {
-        if (pairs_[i].is_quiet()) quiet.push_back(i);
-        else measure_if_near(scene, pairs_[i], tick);
-      }
-      for (const int i : quiet) {
-        if (!is_covered(scene, pairs_[i])) measure_if_near(scene, pairs_[i], tick);
-      }
-    } else {
-      for (Pair& pair : pairs_) measure_if_near(scene, pair, tick);
+  /// measured. False where the work ran out.
+  bool measure_near_pairs(const Scene& scene, Tick<MeshScalar>& tick, int limit) noexcept {
+    for (; next_pair_ < pairs_.size(); ++next_pair_) {
+      if (is_convex && pairs_[next_pair_].is_quiet()) quiet_.push_back(next_pair_);
+      else if (!measure_if_near(scene, pairs_[next_pair_], tick, limit)) return false;
     }
-    measure_nearer(scene, tick);
-    has_rows_ = true;
+    for (; next_quiet_ < quiet_.size(); ++next_quiet_) {
+      Pair& pair = pairs_[quiet_[next_quiet_]];
+      if (!is_covered(scene, pair) && !measure_if_near(scene, pair, tick, limit)) return false;
+    }
+    has_rows_ = measure_nearer(scene, tick, limit);
     tick.rows = problem_.row_count();
+    return has_rows_;
   }
 
   /// Moves all rows by a motion; false where `may_carry(row, its pair)` is, or where a pair has left, and others may repeat it.
@@ -284,13 +303,16 @@ class Linearisation {
     return true;
   }
 
-  void measure_if_near(const Scene& scene, Pair& pair, Tick<MeshScalar>& tick) noexcept {
+  /// False where there is no work left for it.
+  bool measure_if_near(const Scene& scene, Pair& pair, Tick<MeshScalar>& tick, int limit) noexcept {
+    if (tick.work >= limit) return false;
     if (is_far(scene, pair, tick)) {
       pair.state = PairState::left_out;
       leaves_out_pairs_ = true;
     } else {
       measure(scene, pair, tick);
     }
+    return true;
   }
 
   /// Whether the plane of a pair parts it from the tool by more than what touches.
@@ -369,16 +391,22 @@ class Linearisation {
 
   /// Takes in, and measures, the neighbours of ghosts that are to hold the tool in their place, and those that continue a face that touches. They
   /// never blocked a motion: it may come closer than the margin. So the tool would, and turn back where the ghost is none any more, or rest on an
-  /// edge of a tool that is all but flat on the face.
-  void measure_nearer(const Scene& scene, Tick<MeshScalar>& tick) noexcept {
-    for (int i = 0; i < nearer_.size() && !pairs_.full(); ++i) {  // one of them may be a ghost, and add another
-      const Nearer nearer = nearer_[i];
+  /// edge of a tool that is all but flat on the face. False where the work ran out.
+  bool measure_nearer(const Scene& scene, Tick<MeshScalar>& tick, int limit) noexcept {
+    for (; next_nearer_ < nearer_.size() && !pairs_.full(); ++next_nearer_) {  // one of them may be a ghost, and add another
+      const Nearer nearer = nearer_[next_nearer_];
       if (pairs_.find(nearer.piece, nearer.triangle) >= 0) continue;
+      if (tick.work >= limit) return false;
       Pair& pair = is_at_start_ ? take_in(scene, nearer.piece, nearer.triangle, nearer.features)
                                 : take_in_as_at_start(scene, nearer.piece, nearer.triangle, nearer.features, tick);
       measure(scene, pair, tick);
     }
+    forget_nearer();
+    return true;
+  }
+  void forget_nearer() noexcept {
     nearer_.clear();
+    next_nearer_ = 0;
   }
 
   /// Separation of a pair where the motion starts, 0 where that is none [m].
@@ -439,7 +467,9 @@ class Linearisation {
   KeptContacts<Row, Problem::row_capacity> kept_;
   CoveringPlanes<Scalar> covers_;      // of the pairs measured where the rows are
   FixedVector<Nearer, 16> nearer_;     // that are no pairs yet
-  FixedVector<Row, 6> stops_;          // of the last step, where it began
+  FixedVector<int, Pairs::capacity> quiet_;  // pairs that others may cover
+  int next_pair_ = 0, next_quiet_ = 0, next_nearer_ = 0;  // to be measured
+  FixedVector<Stop, QpSolution<Scalar>::active_capacity> stops_;  // of the last step
   Twist<Scalar> stopped_;              // that step
   PatchRows<Scalar, Row> patch_rows_;  // of the pair at hand
   VertexSet near_vertices_;            // likewise

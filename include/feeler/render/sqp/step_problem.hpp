@@ -41,6 +41,7 @@ class StepProblem {
   void clear() noexcept {
     rows_.clear();
     kept_ = 0;
+    is_solved_ = false;
   }
   /// Appends a row; false when there is no room.
   bool add(const Row& row, const Standing& standing) noexcept {
@@ -72,8 +73,12 @@ class StepProblem {
     ++kept_;
     return true;
   }
+  /// How many QPs the next steps may take each; a few in any case.
+  void limit_solves(int most) noexcept { most_solves_ = (std::max)(most, 3); }
   /// QPs that the last step took.
   int solves() const noexcept { return solves_; }
+  /// Whether the rows are those of the last solution, and some kept or added since.
+  bool is_solved() const noexcept { return is_solved_; }
   /// Whether the last solution leaves some of the margin out.
   bool is_relaxed() const noexcept { return elastic_.relaxation() > Scalar(0); }
   /// What the margin that the last step wins is worth, to first order [m²].
@@ -210,7 +215,8 @@ class StepProblem {
 
   /// @param start  rows that are likely to be active
   void solve_elastic(const WarmStart& start = {}) noexcept {
-    solves_ = elastic_.solve(solver_, problem_, price_, picometre, start, solution_);
+    is_solved_ = true;
+    solves_ = elastic_.solve(solver_, problem_, price_, picometre, most_solves_, start, solution_);
     if (solves_ > 0) return;
     solves_ = 1;
     // Rounding or curvature may leave a row short of its hard bound by a hair: stay where rows allow it.
@@ -310,7 +316,8 @@ class StepProblem {
   std::array<Standing, std::size_t(row_capacity)> standings_;
   ElasticRows<Scalar, row_capacity> elastic_;
   Scalar price_ = Scalar(0);  // of the margin, in the unit of multipliers
-  int solves_ = 0;
+  int most_solves_ = 24, solves_ = 0;
+  bool is_solved_ = false;  // since the rows were last cleared
 };
 
 }  // namespace feeler
