@@ -15,6 +15,7 @@
 #include "feeler/contact/wall_rim.hpp"
 #include "feeler/core/feature_incidence.hpp"
 #include "feeler/core/fixed_vector.hpp"
+#include "feeler/core/flatten.hpp"
 #include "feeler/core/scalar.hpp"
 #include "feeler/object/surface_walk.hpp"
 #include "feeler/object/triangle_mesh.hpp"
@@ -69,7 +70,7 @@ class ContactPatch {
   ContactPatch& operator=(const ContactPatch&) = delete;
 
   /// Rows of a triangle with the closest points given; false when it had none but a ghost and that was left out.
-  [[gnu::flatten, gnu::noinline]]
+  FEELER_FLATTEN
   bool find(int triangle, const Matrix3<Scalar>& corners, const ClosestPoints<Scalar>& closest, bool keep_ghost,
             Rows& rows) noexcept {
     rows.clear();
@@ -192,13 +193,13 @@ class ContactPatch {
   Scalar gap_above_face(const Vector& vertex) const noexcept { return maker_.on_surface(triangle_.height_of(vertex)); }
 
   /// Of many vertices, as of a round end, those that hold it up.
-  [[gnu::flatten, gnu::noinline]]
+  FEELER_FLATTEN
   void add_outer_vertices_on_face(Rows& rows) noexcept {
     take_outer_rows<Row>([this](const auto& visit) { this->visit_vertices_on_face(visit); }, band_ / 16, rows);
   }
 
   /// The triangle's own plane, where the lowest tool vertex is beside it, near, and every edge between them is a valley's.
-  [[gnu::flatten, gnu::noinline]]
+  FEELER_FLATTEN
   void add_concave_face(const ClosestPoints<Scalar>& closest, Rows& rows) noexcept {
     if (!triangle_.has_face() || rows.full() || closest.distance > 4 * band_) return;
     for (const Scalar side : {Scalar(1), Scalar(-1)}) {
@@ -236,7 +237,7 @@ class ContactPatch {
     }
   }
 
-  [[gnu::flatten, gnu::noinline]]
+  FEELER_FLATTEN
   void add_corners_on_face(const ToolFace<Scalar>& face, Rows& rows) noexcept {
     const Vector outward = face.normal;
     if (-outward.dot(normal_) < least_cosine) return;
@@ -313,7 +314,7 @@ class ContactPatch {
   }
 
   /// Edges in parallel touch along an interval; its ends hold the tool.
-  [[gnu::flatten, gnu::noinline]]
+  FEELER_FLATTEN
   void add_parallel_edges(const Vector& tool_start, const Vector& tool, const ObjectEdge& edge, Rows& rows) noexcept {
     const Vector &start = edge.start, &object = edge.span;
     const Scalar length_squared = tool.squaredNorm();
@@ -340,7 +341,7 @@ class ContactPatch {
 
   /// A row of shapes that touch along a plane. Which of the two the plane belongs to decides whether it turns with the tool, and where they are
   /// in contact: another plane, a hair askew, would ask for what its neighbours forbid.
-  [[gnu::flatten, gnu::noinline]]
+  FEELER_FLATTEN
   Row row_of_touching(const ClosestPoints<Scalar>& closest) const noexcept {
     if (is_own_plane()) {
       const Vector normal = triangle_.outward();

@@ -7,6 +7,7 @@
 
 #include <Eigen/Geometry>
 
+#include "feeler/core/flatten.hpp"
 #include "feeler/core/scalar.hpp"
 #include "feeler/spatial/rotation.hpp"
 #include "feeler/spatial/twist.hpp"
@@ -147,7 +148,7 @@ struct ContactRow {
 
 /// The gap of a row where a motion ends; all else that `carried` finds is left out.
 template <class Row>
-[[gnu::flatten, gnu::noinline]]
+FEELER_FLATTEN
 typename Row::Scalar carried_gap(const Row& row, const Displacement<typename Row::Scalar>& motion) noexcept {
   return row.carried(motion).gap;
 }

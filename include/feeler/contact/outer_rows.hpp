@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "feeler/core/fixed_vector.hpp"
+#include "feeler/core/flatten.hpp"
 #include "feeler/core/scalar.hpp"
 
 namespace feeler {
@@ -20,7 +21,7 @@ inline constexpr int most_outer_rows = 16;
 /// @param rise      of the plane that tells who would be the lowest, across the rows [m]
 /// @cost O(rows)
 template <class Row, class EachRow, int most>
-[[gnu::flatten]]
+FEELER_FLATTEN
 void take_outer_rows(const EachRow& each_row, const typename Row::Scalar& rise, FixedVector<Row, most>& taken) noexcept {
   using Scalar = typename Row::Scalar;
   using Vector = Vector3<Scalar>;

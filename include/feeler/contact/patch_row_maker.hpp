@@ -6,6 +6,7 @@
 #include "feeler/contact/contact_row.hpp"
 #include "feeler/contact/swept_contact_row.hpp"
 #include "feeler/core/fixed_vector.hpp"
+#include "feeler/core/flatten.hpp"
 #include "feeler/core/scalar.hpp"
 #include "feeler/proximity/gjk.hpp"
 #include "feeler/tool/convex_tool.hpp"
@@ -40,7 +41,7 @@ class PatchRowMaker {
 
   /// A row whose features meet anywhere within `room` of the point. About a corner the normal turns within the gap, and there is next to no room:
   /// with a twentieth of the gap a tool that was about to slip off a ridge passed for one at rest.
-  [[gnu::flatten, gnu::noinline]]
+  FEELER_FLATTEN
   Row row_of(FeaturePair kind, const Vector& normal, const Vector& point, Scalar gap, Scalar room = Scalar(0)) const noexcept {
     Row row;
     row.kind = kind;

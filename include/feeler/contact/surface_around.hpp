@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstddef>
 
+#include "feeler/core/flatten.hpp"
 #include "feeler/core/scalar.hpp"
 #include "feeler/object/normal_cone.hpp"
 #include "feeler/object/surface_walk.hpp"
@@ -88,7 +89,7 @@ class SurfaceAround {
 
   /// Whether a point that may lie beside the triangle is over the wall that it belongs to; past its rim nothing holds.
   /// @param corner  the triangle's first [m]
-  [[gnu::flatten, gnu::noinline]]
+  FEELER_FLATTEN
   bool is_under(const Vector& point, const Vector& corner) const noexcept { return find_under(point, corner) >= 0; }
 
   /// The other triangle of the wall that a point is over, or for one beside the wall that at the rim where a walk to it ends; -1 if that ends at once.

@@ -5,6 +5,7 @@
 
 #include <Eigen/Geometry>
 
+#include "feeler/core/flatten.hpp"
 #include "feeler/core/scalar.hpp"
 
 namespace feeler::detail {
@@ -66,7 +67,7 @@ std::array<Scalar, 3> closest_on_edges(const Vector3<Scalar>& a, const Vector3<S
 
 /// The same for a triangle, by its Voronoi regions (C. Ericson, "Real-Time Collision Detection", section 5.1.5).
 template <class Scalar>
-[[gnu::flatten, gnu::noinline]]
+FEELER_FLATTEN
 std::array<Scalar, 3> closest_on_triangle(const Vector3<Scalar>& a, const Vector3<Scalar>& b,
                                           const Vector3<Scalar>& c) noexcept {
   const Vector3<Scalar> ab = b - a;
@@ -102,7 +103,7 @@ std::array<Scalar, 3> closest_on_triangle(const Vector3<Scalar>& a, const Vector
 /// All faces are searched. That without the newest point, the last, has the origin on its far side only where the three points
 /// were flat or a start from old features had not reduced them, but then it alone tells that the origin is outside.
 template <class Scalar>
-[[gnu::flatten, gnu::noinline]]
+FEELER_FLATTEN
 bool reduce_to_closest(Simplex<Scalar>& simplex) noexcept {
   const auto& p = simplex.points;
   switch (simplex.size) {

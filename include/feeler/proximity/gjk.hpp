@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "feeler/core/fixed_vector.hpp"
+#include "feeler/core/flatten.hpp"
 #include "feeler/core/scalar.hpp"
 #include "feeler/object/triangle_normal.hpp"
 #include "feeler/proximity/closest_on_simplex.hpp"
@@ -210,7 +211,7 @@ ClosestPoints<typename Tool::Scalar> closest_to_large(const Tool& tool, const Ma
 /// @param touching_distance  below it the shapes count as touching [m]
 /// @cost  noexcept, no allocation, at most 32 support calls, mostly 2 to 5; of a large triangle twice that
 template <ConvexTool Tool>
-[[gnu::flatten, gnu::noinline]]
+FEELER_FLATTEN
 ClosestPoints<typename Tool::Scalar> gjk(const Tool& tool, const Matrix3<typename Tool::Scalar>& triangle,
                                          const WitnessFeatures& warm,
                                          typename Tool::Scalar touching_distance) noexcept {
@@ -236,7 +237,7 @@ ClosestPoints<typename Tool::Scalar> gjk(const Tool& tool, const Matrix3<typenam
 /// overlaps the triangle. The algorithm compares squares, so that at a distance it knows the direction to √ε only, which a large triangle
 /// makes into nanometres: where the triangle's own plane shows as much distance, it is taken.
 template <SweptTool Tool>
-[[gnu::flatten, gnu::noinline]]
+FEELER_FLATTEN
 ClosestPoints<typename Tool::Scalar> gjk(const Tool& tool, const Matrix3<typename Tool::Scalar>& triangle,
                                          const WitnessFeatures& warm,
                                          typename Tool::Scalar touching_distance) noexcept {

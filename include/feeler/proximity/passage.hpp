@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "feeler/core/flatten.hpp"
 #include "feeler/core/scalar.hpp"
 #include "feeler/proximity/clearance.hpp"
 #include "feeler/proximity/highest_corner.hpp"
@@ -54,7 +55,7 @@ struct HeldPart {
 /// Part of [from, to] over which one plane certainly holds, fixed to the world or to the tool, whichever is more.
 /// `plane` is given at the frame `at`, which is one end; `required` is subtracted from its slack.
 template <ConvexTool Tool>
-[[gnu::flatten, gnu::noinline]]
+FEELER_FLATTEN
 HeldPart<typename Tool::Scalar> held_part(const MovingTool<Tool>& moving, const Matrix3<typename Tool::Scalar>& corners,
                                           const HeldPlane<typename Tool::Scalar>& plane,
                                           const MotionFrame<typename Tool::Scalar>& at,
@@ -91,7 +92,7 @@ namespace detail {
 /// and b₂ = n₁·(x₁ − y); each has its minimum over the tool at one support point. Less the sagitta g of the chords, 4g t(1 − t), it
 /// stays positive where b₁ − 2g > −√(b₀b₂).
 template <ConvexTool Tool>
-[[gnu::flatten, gnu::noinline]]
+FEELER_FLATTEN
 bool turning_plane_holds(const MovingTool<Tool>& moving, const Matrix3<typename Tool::Scalar>& corners,
                          const HeldPlane<typename Tool::Scalar>& first, const MotionFrame<typename Tool::Scalar>& start,
                          const HeldPlane<typename Tool::Scalar>& last, const MotionFrame<typename Tool::Scalar>& end,
@@ -124,7 +125,7 @@ bool turning_plane_holds(const MovingTool<Tool>& moving, const Matrix3<typename 
 /// @param limit   value of `work` at which it ends with what it has: some queries more at most
 /// @cost  0 queries for a plane that holds, 1 to 4 as a rule, at most 27
 template <ConvexTool Tool>
-[[gnu::flatten, gnu::noinline]]
+FEELER_FLATTEN
 Passage<typename Tool::Scalar> pass(const MovingTool<Tool>& moving, const PassedTriangle<typename Tool::Scalar>& triangle,
                                     const MotionFrame<typename Tool::Scalar>& start,
                                     const MotionFrame<typename Tool::Scalar>& end,

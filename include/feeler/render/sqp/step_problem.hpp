@@ -7,6 +7,7 @@
 
 #include "feeler/contact/contact_row.hpp"
 #include "feeler/core/fixed_vector.hpp"
+#include "feeler/core/flatten.hpp"
 #include "feeler/core/scalar.hpp"
 #include "feeler/qp/qp_solver.hpp"
 #include "feeler/qp/warm_start.hpp"
@@ -234,7 +235,7 @@ class StepProblem {
   ///
   /// Across the active rows the step is fixed, so ½ρ(Jₖd − bₖ)² added for each changes nothing along them (augmented Lagrangian). Where H
   /// has negative curvature along the rows too, the tool is about to slip off: there part of the metric takes its place.
-  [[gnu::flatten, gnu::noinline]]
+  FEELER_FLATTEN
   void set_lagrangian(const Metric<Scalar>& metric, const Twist<Scalar>& e) noexcept {
     const Vector6<Scalar> base = metric.diagonal();
     problem_.gradient = metric.gradient(e);
