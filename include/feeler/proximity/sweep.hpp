@@ -12,6 +12,7 @@
 #include <Eigen/Core>
 
 #include "feeler/core/fixed_vector.hpp"
+#include "feeler/core/flatten.hpp"
 #include "feeler/core/scalar.hpp"
 #include "feeler/object/triangle_mesh.hpp"
 #include "feeler/proximity/coarse_planes.hpp"
@@ -64,21 +65,31 @@ struct SweepResult {
   bool is_exhausted = false;  ///< the work limit was reached: nothing is certified yet, time is 0; the blockers found so far are real
 
   bool is_whole() const noexcept { return blockers.empty() && time >= Scalar(1); }
+  /// Whether as many as there is room for block the motion where it starts: whatever else does, it comes to nothing.
+  bool is_over() const noexcept { return blockers.full() && !(time > Scalar(0)); }
   /// Adds a blocker; where there are too many the earliest are kept.
   void add(const Blocker<Scalar>& blocker) noexcept {
     if (blockers.push_back(blocker)) return;
-    auto latest = std::max_element(blockers.begin(), blockers.end(), [](const auto& a, const auto& b) { return a.time < b.time; });
-    if (blocker.time < latest->time) *latest = blocker;
+    auto* const last = latest_of(blockers);
+    if (blocker.time < last->time) *last = blocker;
+  }
+  const Blocker<Scalar>* latest() const noexcept { return latest_of(blockers); }
+
+ private:
+  template <class Blockers>
+  static auto latest_of(Blockers& blockers) noexcept {
+    return std::max_element(blockers.begin(), blockers.end(), [](const auto& a, const auto& b) { return a.time < b.time; });
   }
 };
 
-/// How far a motion that is blocked at a time should be looked at further: past its first blocker, to know the ones just behind it, and those that are
-/// as early but for how exactly times are known.
+/// How far a motion that is blocked should be looked at further: past its first blocker, to know the ones just behind it, and those that are as early but
+/// for how exactly times are known; where there is no room for more blockers, to the last of them.
 template <ConvexTool Tool>
-typename Tool::Scalar worth_certifying(typename Tool::Scalar blocked, const Clearance<typename Tool::Scalar>& clearance,
+typename Tool::Scalar worth_certifying(const SweepResult<typename Tool::Scalar>& result, const Clearance<typename Tool::Scalar>& clearance,
                                        const MovingTool<Tool>& moving) noexcept {
   using Scalar = typename Tool::Scalar;
-  return (std::min)(Scalar(1), (std::max)(blocked + Scalar(1) / 32, clearance.probe / moving.length()));
+  if (result.blockers.full()) return result.latest()->time;
+  return (std::min)(Scalar(1), (std::max)(result.time + Scalar(1) / 32, clearance.probe / moving.length()));
 }
 
 /// Certifies motions of a tool against a triangle mesh with one traversal of its bounding volume hierarchy.
@@ -205,6 +216,7 @@ class Sweep {
       const KnownTriangle<Scalar>& pair = known_[next_known_];
       if (is_parted(mesh, pair.triangle, moving, work) || passes(pair.state.corners, moving)) continue;
       if (!examine(pair.triangle, pair.state, moving, work, limit, std::exchange(is_again, false))) return exhausted();
+      if (result_.is_over()) return result_;
     }
     const auto is_known = known_by_number();
     const auto measure = [&](int triangle, const Matrix3<Scalar>& corners) {
@@ -239,9 +251,10 @@ class Sweep {
       const auto is_inside = [&mesh](int vertex) { return mesh.walls().is_inside(vertex); };
       return (wall >= 0 && is_wall_parted(wall, std::all_of(vertices.begin(), vertices.end(), is_inside))) || measure(triangle, corners);
     };
-    const bool is_done = traverse(mesh, moving, work, is_known, is_wall_parted, look_at, [&] { return work < limit; });
+    const auto may_go_on = [&] { return work < limit && !result_.is_over(); };
+    const bool is_done = traverse(mesh, moving, work, is_known, is_wall_parted, look_at, may_go_on);
     count_hits();
-    return is_done ? result_ : exhausted();
+    return is_done || result_.is_over() ? result_ : exhausted();
   }
 
   template <class MeshScalar>
@@ -263,7 +276,7 @@ class Sweep {
   /// Calls `visit(triangle, its corners relative to the motion's origin)` for every triangle not `is_known` that no cached plane passes, and
   /// `may_go_on()` between, until one call is false; true when it came to the end. It goes on where it was.
   template <class MeshScalar, class IsKnown, class IsWallParted, class Visit, class MayGoOn>
-  [[gnu::flatten, gnu::noinline]]
+  FEELER_FLATTEN
   bool traverse(const TriangleMesh<MeshScalar>& mesh, const MovingTool<Tool>& moving, int& work, const IsKnown& is_known,
                 const IsWallParted& is_wall_parted, const Visit& visit, const MayGoOn& may_go_on) noexcept {
     const auto look_at = [&](int triangle) {
@@ -318,7 +331,7 @@ class Sweep {
 
   /// Measures a triangle; false where the work ran out before it was known how far the motion is free, and nothing came of it.
   /// @param must_do  then too what is known is made use of
-  [[gnu::flatten, gnu::noinline]]
+  FEELER_FLATTEN
   bool examine(int triangle, const PassedTriangle<Scalar>& state, const MovingTool<Tool>& moving, int& work, int limit, bool must_do) noexcept {
     if (work >= limit) return false;
     if (!state.is_exact && is_behind_known(state.corners, moving, work)) return true;
@@ -337,14 +350,15 @@ class Sweep {
     result_.add({triangle, passage.time, 0, passage.features});
     first_blocked_ = (std::min)(first_blocked_, passage.time);
     result_.time = (std::min)(result_.time, passage.time);
-    const Scalar end = worth_certifying(result_.time, clearance_, moving);
+    if (result_.blockers.full() && result_.latest()->time * moving.length() < clearance_.resolution) result_.time = Scalar(0);
+    const Scalar end = worth_certifying(result_, clearance_, moving);
     if (end < end_.time) set_end(moving, end);
     return true;
   }
 
   /// Whether a triangle lies in or behind the plane that parts a known one from the tool: then it is no nearer than that one, as seen along the
   /// normal. Of a wall that is cut into many triangles a few so tell all.
-  [[gnu::flatten, gnu::noinline]]
+  FEELER_FLATTEN
   bool is_behind_known(const Matrix3<Scalar>& corners, const MovingTool<Tool>& moving, int& work) noexcept {
     constexpr int triangles_per_work = 4;
     hidden_ = (hidden_ + 1) % triangles_per_work;
@@ -361,7 +375,7 @@ class Sweep {
   }
 
   /// From here on only [0, time] is certified.
-  [[gnu::flatten, gnu::noinline]]
+  FEELER_FLATTEN
   void set_end(const MovingTool<Tool>& moving, Scalar time) noexcept {
     end_ = moving.frame_at(time);
     planes_->end(moving, end_, clearance_.kept);
@@ -373,7 +387,7 @@ class Sweep {
     for (int i = 0; i < planes_->size(); ++i) coarse_.set_plane(known_planes_.size() + i, planes_->normal(i), planes_->limit(i));
   }
 
-  [[gnu::flatten, gnu::noinline]]
+  FEELER_FLATTEN
   void add_plane(const Vector& normal, const MovingTool<Tool>& moving) noexcept {
     count_hits();
     const int i = planes_->add(normal, moving, start_, end_, clearance_.kept);
@@ -401,7 +415,7 @@ class Sweep {
     });
   }
 
-  [[gnu::flatten, gnu::noinline]]
+  FEELER_FLATTEN
   bool passes(const Matrix3<Scalar>& corners, const MovingTool<Tool>& moving) noexcept {
     if (last_ < planes_->size() && passes(corners, last_)) return true;
     const int turning = planes_->with_tool().parting(corners);

@@ -45,12 +45,11 @@ class ClosestFeaturesFollower {
   }
 
   TickStatus follow(const Scene& scene, const Pose<Scalar>& target, Tick<MeshScalar>& tick) noexcept {
-    const bool is_still = target.translation == target_.translation && target.rotation.coeffs() == target_.rotation.coeffs();
     target_ = target;
     if (stage_ == Stage::starting) turn_idly(scene, tick);
     off_ = off_target(scene, pose_);
     if (!goes_on_) limits_.reset(scene.trust_radius());
-    if (!is_still) aim_again(scene);
+    if (!aims_at_target()) judge_again(scene);
     if (stage_ == Stage::starting) {
       iteration_ = {};
       auto& pairs = linearisation_.pairs();
@@ -131,6 +130,7 @@ class ClosestFeaturesFollower {
 
   /// What iterations tell each other, and the next tick where one is suspended.
   struct Iteration {
+    Pose<Scalar> aim;              // where the hand was when it began
     bool came_to_nothing = false;  // the last one
     bool is_taken_back = false;    // its second step took back the first
     int known_pairs = 0;           // then
@@ -166,11 +166,14 @@ class ClosestFeaturesFollower {
     }
   }
 
-  /// The hand has moved: a motion towards where it was is gone on with as long as it leads nearer.
-  void aim_again(const Scene& scene) noexcept {
+  bool aims_at_target() const noexcept {
+    return iteration_.aim.translation == target_.translation && iteration_.aim.rotation.coeffs() == target_.rotation.coeffs();
+  }
+
+  /// The hand has moved since the iteration at hand began: its motion is gone on with as long as it leads nearer, and is not the last.
+  void judge_again(const Scene& scene) noexcept {
     Proposal& proposal = iteration_.proposal;
     proposal.is_settled = proposal.is_home = false;
-    iteration_.came_to_nothing = false;
     const bool is_worthwhile = stage_ == Stage::certifying && descends(scene, off_target(scene, iteration_.end), proposal.restoration);
     if (stage_ == Stage::noticing || (stage_ == Stage::certifying && !is_worthwhile)) stage_ = Stage::starting;
   }
@@ -185,6 +188,7 @@ class ClosestFeaturesFollower {
       ++tick.iterations;
       budget_.begin_iteration(tick.work);
       outcome = iterate(scene, tick);
+      if (outcome == Outcome::arrived && !aims_at_target()) outcome = Outcome::another;
     } while (outcome == Outcome::another && tick.iterations < maximum_iterations && budget_.allows_another(tick.work) &&
              !(limits_.trust() < resting(scene)));
     if (outcome == Outcome::suspended) ++iteration_.ticks;
@@ -197,9 +201,13 @@ class ClosestFeaturesFollower {
   Outcome iterate(const Scene& scene, Tick<MeshScalar>& tick) noexcept {
     const Stage stage = stage_;
     if (stage == Stage::starting || stage == Stage::measuring) {
-      if (stage == Stage::starting) iteration_.work = iteration_.ticks = 0;
+      if (stage == Stage::starting) {
+        iteration_.aim = target_;
+        iteration_.work = iteration_.ticks = 0;
+      }
       const Outcome outcome = choose(scene, tick);
       if (outcome != Outcome::proposed) return outcome;
+      if (!aims_at_target()) judge_again(scene);
     }
     return stage == Stage::noticing ? look_around(scene, true, tick) : go(scene, stage == Stage::certifying, tick);
   }
@@ -320,7 +328,7 @@ class ClosestFeaturesFollower {
       if (!linearise(scene, most_rounds > 1, tick)) return false;
       const bool is_first = rounds.count == 0;
       const Pose<Scalar> linearised = rounds.pose;
-      const Twist<Scalar> off = is_first ? off_ : off_target(scene, linearised);
+      const Twist<Scalar> off = turns.motion_between(iteration_.aim, linearised);
       solve(scene, linearised, off, proposal.is_capped, tick);
       if (is_first) proposal.restoration = (std::max)(problem.worth_of_margin(), Scalar(0));
       Leg leg = leg_of(scene, linearised, solved_step());
@@ -329,7 +337,7 @@ class ClosestFeaturesFollower {
         leg = leg_of(scene, linearised, solved_step());
         rounds.is_taken_back = rounds.is_taken_back || rounds.count == 1;
       }
-      linearisation_.learn_passed(scene, tick);
+      linearisation_.learn_passed(scene, tick, budget_.limit());
       const Scalar last = scene.length_of(leg.step, linearised);
       if (is_first) {
         rounds.first = last;
@@ -361,7 +369,7 @@ class ClosestFeaturesFollower {
       const bool is_short = last < Scalar(scene.settings().step_tolerance) && (shrinks_fast || last < very_short(scene));
       rounds.previous = last;
       const bool rests_on_kept = problem.rests_on_kept();
-      proposal.is_home = proposal.is_free && !proposal.is_capped && scene.has_led_to(target_, rounds.pose, length);
+      proposal.is_home = proposal.is_free && !proposal.is_capped && scene.has_led_to(iteration_.aim, rounds.pose, length);
       proposal.is_taken_back = rounds.is_taken_back && rests_on_kept && last < very_short(scene) && !proposal.is_capped;
       proposal.goes_back = rests_on_kept && length < rounds.first / 4 && !proposal.is_capped;
       proposal.is_settled =
@@ -375,28 +383,32 @@ class ClosestFeaturesFollower {
   bool linearise(const Scene& scene, bool may_carry, Tick<MeshScalar>& tick) noexcept {
     Rounds& rounds = iteration_.rounds;
     const bool goes_on = stage_ == Stage::measuring;
+    const bool has_worked = tick.work > 0;
     bool is_done;
     if (goes_on) {
       is_done = linearisation_.go_on(scene, tick, budget_.limit());
     } else if (rounds.count == 0) {
+      const auto is_too_late = [&] { return has_worked && !budget_.allows_step(tick.work); };  // the next tick has work for it
+      if (is_too_late()) return false;
       rounds.is_measured = !(may_carry && linearisation_.start_carried(scene, pose_, reach_of_step(scene), tick, budget_.limit()));
+      if (is_too_late()) return false;
       is_done = !rounds.is_measured || linearisation_.start_measured(scene, pose_, reach_of_step(scene), tick, budget_.limit());
     } else {
       rounds.is_measured = !(iteration_.proposal.is_capped && linearisation_.carry_to(scene, rounds.pose, tick));
       is_done = !rounds.is_measured || linearisation_.move_to(scene, rounds.pose, rounds.assumes_valleys, tick, budget_.limit());
     }
-    const bool may_solve = !rounds.is_measured || (goes_on ? !budget_.is_spent(tick.work) : budget_.allows_step(tick.work));
+    const bool may_solve = !rounds.is_measured || budget_.allows_step(tick.work) || (goes_on && tick.work == 0);
     stage_ = is_done && may_solve ? Stage::starting : Stage::measuring;
     return stage_ == Stage::starting;
   }
 
   /// Solves for a step, with the rows of what it would cross; where the work runs out with less than that.
-  /// @param off  where the linearised pose is, from the target; here and below
+  /// @param off  where the linearised pose is, from where the motion aims; here and below
   void solve(const Scene& scene, const Pose<Scalar>& pose, const Twist<Scalar>& off, bool is_capped, Tick<MeshScalar>& tick) noexcept {
     constexpr int most_additions = 3;
     if (!is_capped && bend_again(scene, pose, off, tick)) return;
     project(scene, off, is_capped, tick);
-    for (int i = 0; i < most_additions && linearisation_.add_crossed(scene, trusted_step(scene, pose), tick, budget_.limit()); ++i) {
+    for (int i = 0; i < most_additions && budget_.allows_solve(tick.work) && linearisation_.add_crossed(scene, trusted_step(scene, pose), tick, budget_.limit()); ++i) {
       project(scene, off, is_capped, tick);
     }
     if (!is_capped) bend(scene, off, tick);
@@ -445,7 +457,8 @@ class ClosestFeaturesFollower {
     return true;
   }
 
-  void limit_solves(const Tick<MeshScalar>& tick) noexcept { linearisation_.problem().limit_solves(budget_.limit() - tick.work); }
+  /// Leaves half of the work to what follows.
+  void limit_solves(const Tick<MeshScalar>& tick) noexcept { linearisation_.problem().limit_solves((budget_.limit() - tick.work) / 2); }
 
   void bend(const Scene& scene, const Twist<Scalar>& off, Tick<MeshScalar>& tick) noexcept {
     if (problem().is_free()) return;
@@ -454,11 +467,11 @@ class ClosestFeaturesFollower {
     tick.work += problem().solves();
   }
 
-  /// Solves again with the contacts of the certified pose that the motion would break.
+  /// Solves again with the contacts of the certified pose that the motion would break; here and below, if there is work left.
   void keep_contacts(const Scene& scene, const Pose<Scalar>& pose, const Twist<Scalar>& off, bool is_capped, Leg& leg, Tick<MeshScalar>& tick) noexcept {
     if (!linearisation_.may_break()) return;
     linearisation_.release_kept();
-    for (int round = 0; round < 2 && linearisation_.keep_broken(scene, leg.motion); ++round) {
+    for (int round = 0; round < 2 && budget_.allows_solve(tick.work) && linearisation_.keep_broken(scene, leg.motion); ++round) {
       project_again(scene, off, is_capped, tick);
       leg = leg_of(scene, pose, solved_step());
     }
@@ -469,7 +482,7 @@ class ClosestFeaturesFollower {
     const Twist<Scalar>& last_step = linearisation_.stopped();
     const Metric<Scalar>& metric = scene.metric();
     if (!(metric.product(solved_step(), last_step) < -metric.energy(last_step) / 2)) return false;
-    if (!linearisation_.keep_stops(scene)) return false;
+    if (!budget_.allows_solve(tick.work) || !linearisation_.keep_stops(scene)) return false;
     project_again(scene, off, false, tick);
     return true;
   }

@@ -157,7 +157,8 @@ class MotionCertificate {
       is_in_piece_ = passed.is_exhausted;
       if (is_in_piece_) return exhausted(passed);
       take(passed);
-      until_ = passed.blockers.empty() ? passed.time : (std::min)(until_, worth_certifying(result_.time, scene.clearance(), moving));
+      if (result_.is_over()) break;
+      until_ = passed.blockers.empty() ? passed.time : (std::min)(until_, worth_certifying(result_, scene.clearance(), moving));
     }
     return result_;
   }

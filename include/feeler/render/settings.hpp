@@ -49,9 +49,9 @@ struct Settings {
   int maximum_iterations = 12;
 
   /// Work a tick, in units of one distance query between the tool and a triangle, or one optimisation (with all that goes with it, about 0.7 µs
-  /// for 32 vertices). When not enough is left for another iteration the tick ends on the certified pose it has. Less bounds the
-  /// worst tick, and lets the tool lag behind where the solution jumps. While it is not enough to move the tool at all, up to some seventeen times as much.
-  int work_budget = 92;
+  /// for 32 vertices). A tick ends within a fifth more than it, on the certified pose that it has, and the next goes on with what it was at. Less bounds
+  /// the worst tick, and lets the tool lag where the solution jumps, or where what is all around the tool takes some ticks to look at.
+  int work_budget = 128;
 };
 
 }  // namespace feeler

@@ -6,6 +6,7 @@
 
 #include "feeler/contact/contact_patch.hpp"
 #include "feeler/core/fixed_vector.hpp"
+#include "feeler/core/flatten.hpp"
 #include "feeler/core/scalar.hpp"
 #include "feeler/object/surface_walk.hpp"
 #include "feeler/proximity/highest_corner.hpp"
@@ -75,7 +76,7 @@ class Linearisation {
   bool go_on(const Scene& scene, Tick<MeshScalar>& tick, int limit = unlimited) noexcept { return measure_near_pairs(scene, tick, limit); }
 
   /// The same with the rows of the last linearisation; false where that was not near, or a plane of it parts its pair by less than a certificate
-  /// requires, or the work ran out.
+  /// requires, or the work ran out: called again at that pose it goes on.
   bool start_carried(const Scene& scene, const Pose<Scalar>& pose, Scalar reach, Tick<MeshScalar>& tick, int limit = unlimited) noexcept {
     if (!has_rows_ || problem_.rests_on_kept()) return false;  // rows of the features that the tool was to leave
     const Twist<Scalar> motion = scene.idle_turns().motion_between(pose_, pose);
@@ -93,7 +94,7 @@ class Linearisation {
     });
     if (!are_carried) return false;
     for (Pair& pair : pairs_) {
-      if (pair.state == PairState::left_out && !measure_if_near(scene, pair, tick, limit)) return has_rows_ = false;
+      if (pair.state == PairState::left_out && !measure_if_near(scene, pair, tick, limit)) return false;
     }
     has_rows_ = measure_nearer(scene, tick, limit);
     tick.rows = problem_.row_count();
@@ -179,12 +180,13 @@ class Linearisation {
     return adds;
   }
 
-  /// Takes the triangles that the contacts of a solution pass over to into the working set: the row of one they have left hides them.
-  void learn_passed(const Scene& scene, Tick<MeshScalar>& tick) noexcept {
+  /// Takes the triangles that the contacts of a solution pass over to into the working set, as far as the work goes: the row of one they have left
+  /// hides them.
+  void learn_passed(const Scene& scene, Tick<MeshScalar>& tick, int limit = unlimited) noexcept {
     std::optional<Displacement<Scalar>> step;
     for (const auto& active : problem_.solution().active) {
       const Row& row = problem_.row(active.row);
-      if (row.kind != FeaturePair::vertex_face || problem_.is_relaxed() || pairs_.full()) continue;
+      if (row.kind != FeaturePair::vertex_face || problem_.is_relaxed() || pairs_.full() || tick.work >= limit) continue;
       if (!step) step.emplace(Twist<Scalar>::from_vector(problem_.solution().step));
       const Vector3<Scalar> point = pose_.translation + step->linear + row.carried(*step).arm;
       const int triangle = triangle_under(scene.object(), row.triangle, point);
@@ -332,7 +334,7 @@ class Linearisation {
   }
 
   /// Separation of a pair along a world normal at a pose with the axes given [m].
-  [[gnu::flatten, gnu::noinline]]
+  FEELER_FLATTEN
   Scalar slack_along(const Scene& scene, const Pair& pair, const Vector3<Scalar>& normal, const Pose<Scalar>& pose, const Matrix3<Scalar>& axes,
                      Tick<MeshScalar>& tick) noexcept {
     if (++planes_ >= planes_per_work) {
@@ -345,7 +347,7 @@ class Linearisation {
   }
 
   /// Measures a pair where the rows are, and adds its rows.
-  [[gnu::flatten, gnu::noinline]]
+  FEELER_FLATTEN
   void measure(const Scene& scene, Pair& pair, Tick<MeshScalar>& tick) noexcept {
     const Matrix3<Scalar> corners = scene.in_tool(pair.corners_world, pose_, axes_);
     const auto closest = query(scene, pair, corners, axes_, is_at_start_, tick);

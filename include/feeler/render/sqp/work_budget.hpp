@@ -27,11 +27,13 @@ class WorkBudget {
   bool is_spent(int work) const noexcept { return work >= limit_; }
   /// Whether enough is left for a step to be solved for.
   bool allows_step(int work) const noexcept { return !is_spent(work + (std::min)(work_of_step, limit_ / 2)); }
+  /// Whether enough is left for it to be solved again with more rows.
+  bool allows_solve(int work) const noexcept { return !is_spent(work + work_of_solve); }
   /// Whether another iteration is begun.
   bool allows_another(int work) const noexcept { return !is_spent(iterations_ <= 1 ? work : work + (work - begun_) / 2); }
 
  private:
-  static constexpr int work_of_step = 6;
+  static constexpr int work_of_step = 10, work_of_solve = 3;
 
   int limit_ = 0;
   int begun_ = 0;       // work when the iteration at hand began
