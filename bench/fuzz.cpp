@@ -68,7 +68,7 @@ int main(int argc, char** argv) {
   app.add_option("--tool", tool, "all, or one kind")
       ->check(CLI::IsMember({"all", "point", "segment", "box", "polytope", "sphere", "capsule", "rounded-box", "rounded-hull", "compound"}));
   app.add_option("--law", law, "of the nearest pose: all, or one; in place of tools")
-      ->check(CLI::IsMember({"all", "free-axes", "held-hand", "convex-room", "no-history", "forces", "status"}));
+      ->check(CLI::IsMember({"all", "free-axes", "held-hand", "convex-room", "no-history", "forces", "status", "budget"}));
   return bench::run_with_options(app, argc, argv, [&] {
     if (seed_option->empty()) seed = std::random_device{}();
     std::printf("first seed %u\n", seed);

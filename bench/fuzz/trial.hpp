@@ -100,6 +100,8 @@ class Trial {
     if (!test::is_valid(tick, int(checked_->triangles.rows()))) return complain("an output is not valid");
     if ((tick.status == Status::not_finite) == haptic.is_finite()) return complain("a status about the device is false");
     if (tick.path.empty() && !test::is_same(before, pose)) return complain("the tool moved off its path");
+    const int budget = settings_.work_budget;
+    if (budget >= 20 && 5 * (tick.work - 2) > 6 * budget) complain(std::to_string(tick.work) + " units of work with a budget of " + std::to_string(budget));
     Pose<double> from = before;
     for (const Pose<double>& to : tick.path) {
       check_leg(from, to, tick.path.size() > 3 ? 3 : 7);

@@ -6,6 +6,7 @@
 #include <random>
 #include <string>
 
+#include "fuzz/laws/budget.hpp"
 #include "fuzz/laws/convex_room.hpp"
 #include "fuzz/laws/convex_rooms.hpp"
 #include "fuzz/laws/flat_plates.hpp"
@@ -44,7 +45,7 @@ void try_scene(const Law& law, const char* name, unsigned seed, std::mt19937& bi
 
 enum Families : unsigned { fits = 1, plates = 2, flat_plates = 4, rooms = 8 };
 
-/// @param families  of which scenes are made, those of a fit twice as often
+/// @param families  of which scenes are made, pegs twice as often
 template <class Law>
 int run_law(const std::string& wanted, const char* name, const char* figure, unsigned families, unsigned first, int trials, const Law& law) {
   if (wanted != "all" && wanted != name) return 0;
@@ -55,7 +56,7 @@ int run_law(const std::string& wanted, const char* name, const char* figure, uns
     const auto in = [&](const auto& scene) { try_scene(law, name, seed, bits, scene, tally); };
     for (bool is_made = false; !is_made;) {
       is_made = true;
-      const int family = below(bits, 8);
+      const int family = below(bits, 9);
       if (family < 2 && (families & fits) != 0)
         in(peg_in_hole(bits));
       else if (family == 2 && (families & fits) != 0)
@@ -70,6 +71,8 @@ int run_law(const std::string& wanted, const char* name, const char* figure, uns
         in(ball_in_bowl(bits));
       else if (family == 7 && (families & rooms) != 0)
         in(box_in_box(bits));
+      else if (family == 8 && (families & fits) != 0)
+        in(round_peg_in_hole(bits));
       else
         is_made = false;
     }
@@ -91,6 +94,7 @@ int run_laws(const std::string& law, unsigned first, int trials) {
   run("convex-room", "m off the projection", flat_plates | rooms, [](std::mt19937& bits, const auto& scene) { return check_convex_room(bits, scene); });
   run("no-history", "m apart", fits | plates | rooms, [](std::mt19937& bits, const auto& scene) { return check_no_history(bits, scene); });
   run("forces", "of the force amiss", fits | plates | rooms, [](std::mt19937& bits, const auto& scene) { return check_forces(bits, scene); });
+  run("budget", "times the budget", fits | plates | rooms, [](std::mt19937& bits, const auto& scene) { return check_budget(bits, scene); });
   run("status", "m off the nearest", fits | plates | rooms, [](std::mt19937& bits, const auto& scene) { return check_status(bits, scene); });
   return broken;
 }

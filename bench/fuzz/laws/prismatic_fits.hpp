@@ -62,6 +62,13 @@ inline LawScene<ConvexPolytope<double>> peg_in_hole(std::mt19937& bits) {
   return fit(bits, "peg", section, height, ConvexPolytope<double>::hull_of(prism(section, height / 2 + peg_overhang)));
 }
 
+/// A peg of 40 to 250 sides, round or elliptic.
+inline LawScene<ConvexPolytope<double>> round_peg_in_hole(std::mt19937& bits) {
+  const Section section = round_section(bits);
+  const double height = 0.005 + 0.015 * fraction(bits);
+  return fit(bits, "round peg", section, height, ConvexPolytope<double>::hull_of(prism(section, height / 2 + peg_overhang)));
+}
+
 /// An L of two bars, which overlap where they meet, about a point of the first.
 inline LawScene<CompoundTool<ConvexPolytope<double>>> angle_in_hole(std::mt19937& bits) {
   const double a = 0.002 + 0.002 * fraction(bits), b = a + 0.001 + 0.005 * fraction(bits), c = a + 0.001 + 0.005 * fraction(bits);

@@ -27,6 +27,18 @@ inline Section random_section(std::mt19937& bits) {
   return section;
 }
 
+/// A polygon of 40 to 250 sides on a circle or an ellipse of some millimetres about the origin.
+inline Section round_section(std::mt19937& bits) {
+  const int n = 40 + below(bits, 211);
+  const double radius = 0.002 + 0.006 * fraction(bits), flatness = below(bits, 2) == 0 ? 1 : 0.6 + 0.4 * fraction(bits);
+  Section section;
+  for (int i = 0; i < n; ++i) {
+    const double angle = 2 * std::numbers::pi * i / n;
+    section.emplace_back(radius * std::cos(angle), flatness * radius * std::sin(angle));
+  }
+  return section;
+}
+
 /// The polygon whose sides lie a distance outside those of another [m]; negative for inside.
 inline Section parallel(const Section& section, double distance) {
   const std::size_t n = section.size();
