@@ -83,7 +83,7 @@ BOOST_AUTO_TEST_CASE(it_does_what_as_many_updates_do_and_ends_within_one_update_
   int stopped = 0, settled = 0;
   for (int k = 1; k <= 40; ++k) {
     const Pose<double> haptic = scene.motion(k / 25.0);
-    const int most_work = k % 8 * 100;
+    const int most_work = k % 8 * 150;
     int work = 0, iterations = 0, last = 0;
     do {
       last = other.update(haptic).work;

@@ -43,7 +43,8 @@ void try_scene(const Law& law, const char* name, unsigned seed, std::mt19937& bi
   std::printf("%s, %s (play %.2g m, margin %.2g m): %s, %s\n  again: feeler-fuzz --law %s --seed %u --trials 1\n", name, scene.family.c_str(), scene.play, scene.settings.margin, finding.kind.c_str(), finding.problem.c_str(), name, seed);
 }
 
-enum Families : unsigned { fits = 1, plates = 2, flat_plates = 4, rooms = 8 };
+/// A round peg that touches all around is at rest, but not to the last bit.
+enum Families : unsigned { fits = 1, plates = 2, flat_plates = 4, rooms = 8, round_fits = 16 };
 
 /// @param families  of which scenes are made, pegs twice as often
 template <class Law>
@@ -71,7 +72,7 @@ int run_law(const std::string& wanted, const char* name, const char* figure, uns
         in(ball_in_bowl(bits));
       else if (family == 7 && (families & rooms) != 0)
         in(box_in_box(bits));
-      else if (family == 8 && (families & fits) != 0)
+      else if (family == 8 && (families & round_fits) != 0)
         in(round_peg_in_hole(bits));
       else
         is_made = false;
@@ -89,13 +90,13 @@ int run_law(const std::string& wanted, const char* name, const char* figure, uns
 int run_laws(const std::string& law, unsigned first, int trials) {
   int broken = 0;
   const auto run = [&](const char* name, const char* figure, unsigned families, const auto& check) { broken += run_law(law, name, figure, families, first, trials, check); };
-  run("free-axes", "m along a free axis", fits | plates, [](std::mt19937& bits, const auto& scene) { return check_free_axes(bits, scene); });
+  run("free-axes", "m along a free axis", fits | round_fits | plates, [](std::mt19937& bits, const auto& scene) { return check_free_axes(bits, scene); });
   run("held-hand", "times the worth of the margin", fits | plates | rooms, [](std::mt19937& bits, const auto& scene) { return check_held_hand(bits, scene); });
   run("convex-room", "m off the projection", flat_plates | rooms, [](std::mt19937& bits, const auto& scene) { return check_convex_room(bits, scene); });
   run("no-history", "m apart", fits | plates | rooms, [](std::mt19937& bits, const auto& scene) { return check_no_history(bits, scene); });
-  run("forces", "of the force amiss", fits | plates | rooms, [](std::mt19937& bits, const auto& scene) { return check_forces(bits, scene); });
-  run("budget", "times the budget", fits | plates | rooms, [](std::mt19937& bits, const auto& scene) { return check_budget(bits, scene); });
-  run("status", "m off the nearest", fits | plates | rooms, [](std::mt19937& bits, const auto& scene) { return check_status(bits, scene); });
+  run("forces", "of the force amiss", fits | round_fits | plates | rooms, [](std::mt19937& bits, const auto& scene) { return check_forces(bits, scene); });
+  run("budget", "times the budget", fits | round_fits | plates | rooms, [](std::mt19937& bits, const auto& scene) { return check_budget(bits, scene); });
+  run("status", "m off the nearest", fits | round_fits | plates | rooms, [](std::mt19937& bits, const auto& scene) { return check_status(bits, scene); });
   return broken;
 }
 

@@ -326,6 +326,7 @@ class ClosestFeaturesFollower {
     auto& problem = linearisation_.problem();
     for (; rounds.count < most_rounds; ++rounds.count) {
       if (!linearise(scene, most_rounds > 1, tick)) return false;
+      const int begun = tick.work;
       const bool is_first = rounds.count == 0;
       const Pose<Scalar> linearised = rounds.pose;
       const Twist<Scalar> off = turns.motion_between(iteration_.aim, linearised);
@@ -338,6 +339,7 @@ class ClosestFeaturesFollower {
         rounds.is_taken_back = rounds.is_taken_back || rounds.count == 1;
       }
       linearisation_.learn_passed(scene, tick, budget_.limit());
+      budget_.note_step(tick.work - begun);
       const Scalar last = scene.length_of(leg.step, linearised);
       if (is_first) {
         rounds.first = last;

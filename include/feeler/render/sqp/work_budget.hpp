@@ -25,8 +25,10 @@ class WorkBudget {
   /// Work at which everything stops.
   int limit() const noexcept { return limit_; }
   bool is_spent(int work) const noexcept { return work >= limit_; }
-  /// Whether enough is left for a step to be solved for.
-  bool allows_step(int work) const noexcept { return !is_spent(work + (std::min)(work_of_step, limit_ / 2)); }
+  /// Whether enough is left for a step to be solved for: twice what the last one took, or half of a budget.
+  bool allows_step(int work) const noexcept { return !is_spent(work + (std::min)((std::max)(work_of_step, 2 * last_step_), limit_ / 2)); }
+  /// @param work  that it took to solve for a step
+  void note_step(int work) noexcept { last_step_ = work; }
   /// Whether enough is left for it to be solved again with more rows.
   bool allows_solve(int work) const noexcept { return !is_spent(work + work_of_solve); }
   /// Whether another iteration is begun.
@@ -36,6 +38,7 @@ class WorkBudget {
   static constexpr int work_of_step = 10, work_of_solve = 3;
 
   int limit_ = 0;
+  int last_step_ = 0;
   int begun_ = 0;       // work when the iteration at hand began
   int iterations_ = 0;  // begun in this tick
 };
