@@ -83,7 +83,7 @@ BOOST_AUTO_TEST_CASE(it_does_what_as_many_updates_do_and_ends_within_one_update_
   int stopped = 0, settled = 0;
   for (int k = 1; k <= 40; ++k) {
     const Pose<double> haptic = scene.motion(k / 25.0);
-    const int most_work = k % 8 * 150;
+    const int most_work = k % 8 * 100;
     int work = 0, iterations = 0, last = 0;
     do {
       last = other.update(haptic).work;
@@ -96,7 +96,7 @@ BOOST_AUTO_TEST_CASE(it_does_what_as_many_updates_do_and_ends_within_one_update_
     BOOST_TEST(tick.work == work);
     BOOST_TEST(tick.iterations == iterations);
     BOOST_TEST(work - last <= std::max(most_work - budget, 0));
-    stopped += tick.status == Status::unconverged && work > 2 * last ? 1 : 0;
+    stopped += tick.status == Status::unconverged && work > last ? 1 : 0;
     settled += tick.converged() && work > last ? 1 : 0;
   }
   BOOST_TEST(stopped > 0);
