@@ -101,7 +101,7 @@ class Trial {
     if ((tick.status == Status::not_finite) == haptic.is_finite()) return complain("a status about the device is false");
     if (tick.path.empty() && !test::is_same(before, pose)) return complain("the tool moved off its path");
     const int budget = settings_.work_budget;
-    if (budget >= 20 && 5 * (tick.work - 2) > 6 * budget) complain(std::to_string(tick.work) + " units of work with a budget of " + std::to_string(budget));
+    if (budget >= 20 && !test::keeps_budget(tick.work, budget)) complain(std::to_string(tick.work) + " units of work with a budget of " + std::to_string(budget));
     Pose<double> from = before;
     for (const Pose<double>& to : tick.path) {
       check_leg(from, to, tick.path.size() > 3 ? 3 : 7);

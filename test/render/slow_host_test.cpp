@@ -76,7 +76,9 @@ BOOST_AUTO_TEST_CASE(at_60_frames_a_second_one_tick_a_frame_leaves_the_tool_behi
 BOOST_AUTO_TEST_CASE(it_does_what_as_many_updates_do_and_ends_within_one_update_of_its_work) {
   const auto scene = scenes::terrain(71);
   const TriangleMesh<double> object(scene.vertices, scene.triangles);
-  Renderer renderer(object, std::get<ConvexPolytope<double>>(scene.tool), scene.settings()), other = renderer;
+  auto settings = scene.settings();
+  settings.work_budget = 92;
+  Renderer renderer(object, std::get<ConvexPolytope<double>>(scene.tool), settings), other = renderer;
   renderer.reset(scene.start);
   other.reset(scene.start);
   const int budget = renderer.settings().work_budget;
@@ -96,7 +98,7 @@ BOOST_AUTO_TEST_CASE(it_does_what_as_many_updates_do_and_ends_within_one_update_
     BOOST_TEST(tick.work == work);
     BOOST_TEST(tick.iterations == iterations);
     BOOST_TEST(work - last <= std::max(most_work - budget, 0));
-    stopped += tick.status == Status::unconverged && work > last ? 1 : 0;
+    stopped += tick.status == Status::unconverged && work > 2 * last ? 1 : 0;
     settled += tick.converged() && work > last ? 1 : 0;
   }
   BOOST_TEST(stopped > 0);

@@ -85,6 +85,9 @@ bool is_same(const Pose& a, const Pose& b) {
   return a.translation == b.translation && a.rotation.coeffs() == b.rotation.coeffs();
 }
 
+/// Whether a tick kept its budget of 20 or more: a fifth more work than that, and two units, is the most.
+inline bool keeps_budget(int work, int budget) { return 5 * (work - 2) <= 6 * budget; }
+
 /// Whether every number of a tick is finite, its quaternion unit, and its lists within bounds.
 template <class Scalar>
 bool is_valid(const Tick<Scalar>& tick, int triangle_count) {

@@ -55,18 +55,10 @@ LawScene<Tool> fit(std::mt19937& bits, const char* family, const Section& sectio
   return scene;
 }
 
-/// A convex peg of 3 to 40 sides.
-inline LawScene<ConvexPolytope<double>> peg_in_hole(std::mt19937& bits) {
-  const Section section = random_section(bits);
+/// A convex peg of a section.
+inline LawScene<ConvexPolytope<double>> peg_in_hole(std::mt19937& bits, const char* family, const Section& section) {
   const double height = 0.005 + 0.015 * fraction(bits);
-  return fit(bits, "peg", section, height, ConvexPolytope<double>::hull_of(prism(section, height / 2 + peg_overhang)));
-}
-
-/// A peg of 40 to 250 sides, round or elliptic.
-inline LawScene<ConvexPolytope<double>> round_peg_in_hole(std::mt19937& bits) {
-  const Section section = round_section(bits);
-  const double height = 0.005 + 0.015 * fraction(bits);
-  return fit(bits, "round peg", section, height, ConvexPolytope<double>::hull_of(prism(section, height / 2 + peg_overhang)));
+  return fit(bits, family, section, height, ConvexPolytope<double>::hull_of(prism(section, height / 2 + peg_overhang)));
 }
 
 /// An L of two bars, which overlap where they meet, about a point of the first.

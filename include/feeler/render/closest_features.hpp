@@ -104,7 +104,7 @@ class ClosestFeaturesFollower {
   /// What an iteration is at. The next tick goes on there.
   enum class Stage : unsigned char {
     starting,
-    measuring,   ///< pairs where the motion starts
+    measuring,   ///< pairs where the motion starts, or where its last step ended
     certifying,  ///< the motion
     noticing,    ///< what is near where it ended
   };

@@ -99,9 +99,7 @@ class MotionCertificate {
         sweep_->work_with(planes_[std::size_t(piece_)], &walls_);
         noticed = sweep_->go_on_noticing(scene.object(), standing, all, work, limit);
       } else {
-        Clearance<Scalar> clearance = scene.clearance_for(standing);
-        clearance.kept = (std::max)(clearance.kept, scene.noticed());
-        sweep_.emplace(planes_[std::size_t(piece_)], clearance, &walls_, piece_);
+        sweep_.emplace(planes_[std::size_t(piece_)], noticing_clearance(scene, standing), &walls_, piece_);
         noticed = sweep_->notice(scene.object(), standing, all, work, limit);
       }
       is_in_piece_ = noticed.is_exhausted;
@@ -163,13 +161,18 @@ class MotionCertificate {
     return result_;
   }
 
-  /// Adds the result of a piece.
-  void take(const SweepResult<Scalar>& passed) noexcept {
+  /// Adds the blockers of the piece at hand.
+  void add_blockers(const SweepResult<Scalar>& passed, SweepResult<Scalar>& result) const noexcept {
     for (Blocker<Scalar> blocker : passed.blockers) {
       blocker.piece = piece_;
-      first_blocked_ = (std::min)(first_blocked_, blocker.time);
-      result_.add(blocker);
+      result.add(blocker);
     }
+  }
+
+  /// Adds the result of a piece.
+  void take(const SweepResult<Scalar>& passed) noexcept {
+    add_blockers(passed, result_);
+    for (const Blocker<Scalar>& blocker : passed.blockers) first_blocked_ = (std::min)(first_blocked_, blocker.time);
     result_.time = (std::min)(result_.time, passed.time);
   }
 
@@ -177,10 +180,7 @@ class MotionCertificate {
   /// @param passed  of the piece at hand
   SweepResult<Scalar> exhausted(const SweepResult<Scalar>& passed = {}) const noexcept {
     SweepResult<Scalar> result = result_;
-    for (Blocker<Scalar> blocker : passed.blockers) {
-      blocker.piece = piece_;
-      result.add(blocker);
-    }
+    add_blockers(passed, result);
     result.time = Scalar(0);
     result.is_exhausted = true;
     return result;
@@ -212,10 +212,16 @@ class MotionCertificate {
     return true;
   }
 
-  static bool passes(Group& group, const Scene& scene, const MovingTool<Box<Scalar>>& moving, int& work, int limit) noexcept {
+  /// That of what is to be noticed.
+  template <class Moving>
+  static Clearance<Scalar> noticing_clearance(const Scene& scene, const Moving& moving) noexcept {
     Clearance<Scalar> clearance = scene.clearance_for(moving);
     clearance.kept = (std::max)(clearance.kept, scene.noticed());
-    return Sweep<Box<Scalar>>(group.planes, clearance).parts(scene.object(), moving, work, limit);
+    return clearance;
+  }
+
+  static bool passes(Group& group, const Scene& scene, const MovingTool<Box<Scalar>>& moving, int& work, int limit) noexcept {
+    return Sweep<Box<Scalar>>(group.planes, noticing_clearance(scene, moving)).parts(scene.object(), moving, work, limit);
   }
 
   /// Certifies the piece at hand, or goes on with it.

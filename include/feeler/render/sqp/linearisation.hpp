@@ -72,8 +72,21 @@ class Linearisation {
     begin_to_measure();
     return go_on(scene, tick, limit);
   }
-  /// Measures what a start, or this, had no work for; false where the work ran out again.
-  bool go_on(const Scene& scene, Tick<MeshScalar>& tick, int limit = unlimited) noexcept { return measure_near_pairs(scene, tick, limit); }
+  /// Measures what a start, a move or this had no work for; false where the work ran out again. Those pairs come last that may be covered by others.
+  /// In a fit all around a tool of several pieces the next step may take any of many, and each is measured.
+  bool go_on(const Scene& scene, Tick<MeshScalar>& tick, int limit = unlimited) noexcept {
+    for (; next_pair_ < pairs_.size(); ++next_pair_) {
+      if (is_convex && pairs_[next_pair_].is_quiet()) quiet_.push_back(next_pair_);
+      else if (!measure_if_near(scene, pairs_[next_pair_], tick, limit)) return false;
+    }
+    for (; next_quiet_ < quiet_.size(); ++next_quiet_) {
+      Pair& pair = pairs_[quiet_[next_quiet_]];
+      if (!is_covered(scene, pair) && !measure_if_near(scene, pair, tick, limit)) return false;
+    }
+    has_rows_ = measure_nearer(scene, tick, limit);
+    tick.rows = problem_.row_count();
+    return has_rows_;
+  }
 
   /// The same with the rows of the last linearisation; false where that was not near, or a plane of it parts its pair by less than a certificate
   /// requires, or the work ran out: called again at that pose it goes on.
@@ -101,14 +114,14 @@ class Linearisation {
     return has_rows_;
   }
 
-  /// Rows where a step ended; false where the work ran out, and some are missing.
+  /// Rows where a step ended; false where the work ran out, and `go_on` measures the rest.
   /// @param assumes_valleys  as `ContactPatch` has it
   bool move_to(const Scene& scene, const Pose<Scalar>& pose, bool assumes_valleys, Tick<MeshScalar>& tick, int limit = unlimited) noexcept {
     put_at(pose);
     is_at_start_ = false;
     assumes_valleys_ = assumes_valleys;
     begin_to_measure();
-    return measure_near_pairs(scene, tick, limit);
+    return go_on(scene, tick, limit);
   }
 
   /// The rows of the last pose where a capped step ended: what holds the tool there is known, and the next motion measures it. False where
@@ -263,22 +276,6 @@ class Linearisation {
     forget_nearer();
     quiet_.clear();
     next_pair_ = next_quiet_ = 0;
-  }
-
-  /// Those last that may be covered by others. In a fit all around a tool of several pieces the next step may take any of many pairs, and each is
-  /// measured. False where the work ran out.
-  bool measure_near_pairs(const Scene& scene, Tick<MeshScalar>& tick, int limit) noexcept {
-    for (; next_pair_ < pairs_.size(); ++next_pair_) {
-      if (is_convex && pairs_[next_pair_].is_quiet()) quiet_.push_back(next_pair_);
-      else if (!measure_if_near(scene, pairs_[next_pair_], tick, limit)) return false;
-    }
-    for (; next_quiet_ < quiet_.size(); ++next_quiet_) {
-      Pair& pair = pairs_[quiet_[next_quiet_]];
-      if (!is_covered(scene, pair) && !measure_if_near(scene, pair, tick, limit)) return false;
-    }
-    has_rows_ = measure_nearer(scene, tick, limit);
-    tick.rows = problem_.row_count();
-    return has_rows_;
   }
 
   /// Moves all rows by a motion; false where `may_carry(row, its pair)` is, or where a pair has left, and others may repeat it.
