@@ -280,8 +280,9 @@ try {
       const counts = await Promise.all(pages.map((p) => p.evaluate(async () => {
         const { samples } = feeler.timeline, missedColumn = 13;
         const begin = samples.time(samples.count - 1);
-        const first = samples.from(begin) + 1;
-        while (samples.count - first <= 500) await new Promise((resolve) => setTimeout(resolve, 100));  // on a machine as slow as it may be
+        const firstAfter = () => samples.from(begin) + 1;  // it moves where the ring is full
+        while (samples.count - firstAfter() <= 500) await new Promise((resolve) => setTimeout(resolve, 100));  // on a machine as slow as it may be
+        const first = firstAfter();
         let missed = 0;
         for (let i = first; i < samples.count; ++i) missed += samples.value(i, missedColumn);
         return { got: samples.count - first, missed, due: Math.round((samples.time(samples.count - 1) - begin) * 1000), lost: feeler.timeline.latest.lost };

@@ -12,9 +12,11 @@ import { readRecording, writeRecording } from './recording.js';
 import { csvOf, download, pngOf } from './save.js';
 import { countTicks, Strips } from './strips.js';
 import { Timeline } from './timeline.js';
+import { traceSeconds } from './trace.js';
 
 const $ = (id) => document.getElementById(id);
 const stripPeriod = 120, slowStripPeriod = 300;  // between drawings of the strips, and where pixels are slow [ms]
+const fadingPeriod = 0.25;  // between pictures in which nothing but the trace changes [s]
 
 class Page {
   constructor() {
@@ -149,11 +151,15 @@ class Page {
     if (this.player.isLive && !this.rests(frame)) this.showMoment();
   }
 
-  /** Whether nothing has moved since the picture on show: then four a second are enough. */
+  /** Whether a frame shows what is on show: then none is drawn, but a few a second while the trace fades. */
   rests(frame) {
     const shown = this.view.frame;
-    const poses = ({ haptic, graphic }) => [haptic.position, haptic.quaternion, graphic.position, graphic.quaternion].join();
-    return shown && shown.stage === frame.stage && frame.time - shown.time < 0.25 && poses(shown) === poses(frame);
+    const seen = ({ haptic, graphic, force, torque, status }) => [haptic.position, haptic.quaternion, graphic.position, graphic.quaternion, force, torque, status].join();
+    if (!shown || shown.stage !== frame.stage || seen(shown) !== seen(frame)) {
+      this.lastMove = frame.time;
+      return false;
+    }
+    return frame.time - shown.time < fadingPeriod || frame.time - this.lastMove > traceSeconds + fadingPeriod;
   }
 
   noteEvents(last, frame) {

@@ -3,7 +3,7 @@ import { Group, Vector3 } from 'three';
 import { FatLine, fatMaterial } from './fat_line.js';
 import { tipOf } from './pose.js';
 
-const seconds = 4;
+export const traceSeconds = 4;
 
 export class Trace extends Group {
   constructor() {
@@ -20,7 +20,7 @@ export class Trace extends Group {
     if (!this.visible || index < 0) return;
     const points = { graphic: [], haptic: [] };
     const local = new Vector3(...tip);
-    for (let i = index; i >= 0 && frames[i].time > frames[index].time - seconds && frames[i].stage === stage; i -= 2) {
+    for (let i = index; i >= 0 && frames[i].time > frames[index].time - traceSeconds && frames[i].stage === stage; i -= 2) {
       points.graphic.push(...tipOf(frames[i].graphic, local).toArray());
       points.haptic.push(...tipOf(frames[i].haptic, local).toArray());
     }
