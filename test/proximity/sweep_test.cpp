@@ -62,7 +62,7 @@ void check_soup(unsigned seed, const Soup& soup, const Vector& offset, double ro
   const auto triangles = int(soup.triangles.rows());
   const TriangleMesh<double> mesh(soup.vertices, soup.triangles);
   const CheckedObject object(soup.vertices, soup.triangles);
-  PlaneCache<double> planes;  // kept from motion to motion, as the renderer does
+  PlaneCache<double> planes(256);  // kept from motion to motion, as the renderer does
   const auto surface = std::make_unique<feeler::WallPlanes<double>>();  // and these from tool to tool: they are seen from all sides
   surface->clear();
   Tally tally;
@@ -73,6 +73,7 @@ void check_soup(unsigned seed, const Soup& soup, const Vector& offset, double ro
   for (int i = 0, link = 0; i < count; ++i, link = (link + 1) % chain) {
     if (link == 0) {
       planes.with_tool().clear();  // of another tool
+      planes.leaves().clear();
       do {
         tool = Box(
             Vector(magnitude(bits, -2.3, -1.3), magnitude(bits, -2.3, -1.3), magnitude(bits, -2.3, -1.3)));

@@ -86,6 +86,10 @@ class Bvh {
   const Vector3<Scalar>& origin() const noexcept { return origin_; }
   std::span<const BvhNode> nodes() const noexcept { return nodes_; }
   std::span<const BvhLeaf> leaves() const noexcept { return leaves_; }
+  /// The leaves in the box of a child, from one to before another.
+  std::array<std::int32_t, 2> leaves_under(std::int32_t child) const noexcept {
+    return BvhNode::is_leaf(child) ? std::array{std::int32_t(~child), std::int32_t(~child + 1)} : ranges_[std::size_t(child)];
+  }
 
   /// Calls `visit(triangle)`, until it returns false, for the triangles of the leaves of which no box on the way is
   /// `is_apart(lower, upper)`, which are arrays of three floats.
@@ -163,6 +167,19 @@ class Bvh {
       nodes_[std::size_t(task.node)] = node;
     }
     nodes_.shrink_to_fit();
+    find_ranges();
+  }
+
+  /// The leaves under a node come one after another: those that are its children, and those of each other child in turn.
+  void find_ranges() {
+    ranges_.assign(nodes_.size(), {std::numeric_limits<std::int32_t>::max(), 0});
+    for (std::size_t n = nodes_.size(); n-- > 0;) {  // children come after their parent
+      for (const std::int32_t child : nodes_[n].child) {
+        if (child == 0) continue;
+        const auto under = leaves_under(child);
+        ranges_[n] = {(std::min)(ranges_[n][0], under[0]), (std::max)(ranges_[n][1], under[1])};
+      }
+    }
   }
 
   /// The nodes of a binary tree that take the place of one of them.
@@ -187,6 +204,7 @@ class Bvh {
   Vector3<Scalar> origin_ = Vector3<Scalar>::Zero();
   std::vector<BvhNode> nodes_;
   std::vector<BvhLeaf> leaves_;
+  std::vector<std::array<std::int32_t, 2>> ranges_;  // of leaves, by node
 };
 
 }  // namespace feeler

@@ -71,6 +71,8 @@ class MovingTool {
   Scalar radius() const noexcept { return radius_; }
   /// Bound on the path of every point of the tool, or of its core, over the whole motion [m].
   Scalar length() const noexcept { return distance_ + turning_; }
+  /// Bound on how far its turn alone moves a point [m].
+  Scalar turning() const noexcept { return turning_; }
   /// Whether it is no motion: the tool stands where it is.
   bool is_still() const noexcept { return !(distance_ > Scalar(0)) && !(angle_ > Scalar(0)); }
 

@@ -10,6 +10,7 @@
 #include "feeler/proximity/feature_cache.hpp"
 #include "feeler/proximity/height_on_motion.hpp"
 #include "feeler/proximity/motion.hpp"
+#include "feeler/proximity/parted_leaves.hpp"
 #include "feeler/proximity/tool_planes.hpp"
 
 namespace feeler {
@@ -25,6 +26,9 @@ class PlaneCache {
   using Scalar = ScalarType;
   static constexpr int capacity = 12;
 
+  /// @param leaf_capacity  of the leaves that are remembered
+  explicit PlaneCache(int leaf_capacity = 0) : leaves_(leaf_capacity) {}
+
   int size() const noexcept { return size_; }
   const Vector3<Scalar>& normal(int i) const noexcept { return planes_[index(i)].normal; }
   Scalar limit(int i) const noexcept { return planes_[index(i)].limit; }
@@ -34,9 +38,14 @@ class PlaneCache {
     knows_heights_ = false;
     features_.clear();
     with_tool_.clear();
+    leaves_.clear();
   }
   /// Those fixed to the tool.
   ToolPlanes<Scalar>& with_tool() noexcept { return with_tool_; }
+  /// Leaves that planes of their own part from the tool.
+  PartedLeaves<Scalar>& leaves() noexcept { return leaves_; }
+  /// How far the tool is above the plane at the start of the motion, relative to its origin [m].
+  Scalar height(int i) const noexcept { return planes_[index(i)].start; }
   /// Of the triangles that no plane passed.
   FeatureCache& features() noexcept { return features_; }
 
@@ -107,6 +116,7 @@ class PlaneCache {
   Vector3<Scalar> shift_;        // to there from where it began [m]
   FeatureCache features_;
   ToolPlanes<Scalar> with_tool_;
+  PartedLeaves<Scalar> leaves_;
 };
 
 }  // namespace feeler

@@ -265,6 +265,8 @@ class Sweep {
     planes_->age();
     planes_->with_tool().age();
     planes_->begin(moving, start_);
+    evaluations_ += planes_->leaves().begin(moving, clearance_.kept) / 4;
+    noted_leaf_ = -1;
     if (!may_be_near_) find_known_planes(moving);
     if (walls_ != nullptr) {
       walls_->begin(mesh, piece_, moving, start_, may_be_near_);
@@ -279,21 +281,66 @@ class Sweep {
   FEELER_FLATTEN
   bool traverse(const TriangleMesh<MeshScalar>& mesh, const MovingTool<Tool>& moving, int& work, const IsKnown& is_known,
                 const IsWallParted& is_wall_parted, const Visit& visit, const MayGoOn& may_go_on) noexcept {
-    const auto look_at = [&](int triangle) {
-      if (is_known(triangle) || is_parted(mesh, triangle, moving, work)) return true;
-      const Matrix3<Scalar> corners = mesh.corners(triangle).template cast<Scalar>().colwise() - moving.origin();
+    const auto look_at = [&](std::int32_t leaf, std::size_t lane) {
+      if (planes_->leaves().is_parted(leaf, lane)) return true;
+      const int triangle = mesh.bvh().leaves()[std::size_t(leaf)].triangle[lane];
+      if (is_known(triangle)) return true;
+      if (planes_->leaves().is_kept()) {
+        if (leaf != noted_leaf_) note_planes(mesh, leaf, moving, work);
+        if ((noted_lanes_ >> lane & 1U) != 0) return true;
+      } else if (is_parted(mesh, triangle, moving, work)) {
+        return true;
+      }
+      const Matrix3<Scalar> corners = corners_of(mesh, triangle, moving);
       return passes(corners, moving) || visit(triangle, corners);
     };
     const auto plane_count = [this] { return known_planes_.size() + planes_->size(); };
     const auto sift = [&](int node, auto& passed) {
-      if (walls_ == nullptr || mesh.walls().count() == 0) return;
-      const auto& walls = mesh.walls().under(node);
-      for (std::size_t i = 0; i < passed.size(); ++i) {
-        if (passed[i] == 0 && walls[i] >= 0 && is_wall_parted(walls[i], mesh.walls().is_inside(node, i))) passed[i] = -1;
+      if (walls_ != nullptr && mesh.walls().count() > 0) {
+        const auto& walls = mesh.walls().under(node);
+        for (std::size_t i = 0; i < passed.size(); ++i) {
+          if (passed[i] == 0 && walls[i] >= 0 && is_wall_parted(walls[i], mesh.walls().is_inside(node, i))) passed[i] = -1;
+        }
+        count_evaluations(work);
       }
-      count_evaluations(work);
+      for (std::size_t i = 0; i < passed.size() && !planes_->leaves().empty(); ++i) {
+        const std::int32_t child = mesh.bvh().nodes()[std::size_t(node)].child[i];
+        if (passed[i] != 0 || child == 0) continue;
+        const auto under = mesh.bvh().leaves_under(child);
+        if (planes_->leaves().are_parted(under[0], under[1])) passed[i] = -1;
+      }
     };
     return visit_unpassed(mesh.bvh(), coarse_, plane_count, *place_, work, sift, look_at, may_go_on);
+  }
+
+  /// Planes that part the tool from the triangles of a leaf, all of them: the leaf that has one for each need not be visited again.
+  template <class MeshScalar>
+  void note_planes(const TriangleMesh<MeshScalar>& mesh, std::int32_t leaf, const MovingTool<Tool>& moving, int& work) noexcept {
+    auto& front = planes_->leaves();
+    const auto& triangles = mesh.bvh().leaves()[std::size_t(leaf)].triangle;
+    unsigned there = 0;
+    for (std::size_t i = 0; i < BvhLeaf::width; ++i) there |= unsigned(triangles[i] >= 0) << i;
+    noted_leaf_ = leaf;
+    noted_lanes_ = 0;
+    const auto note = [&](std::size_t lane, const Vector& normal, const Scalar& room) {
+      if (room > clearance_.kept) front.note(leaf, there, lane, normal, room);
+      noted_lanes_ |= 1U << lane;
+    };
+    for (std::size_t i = 0; i < BvhLeaf::width; ++i) {
+      if (triangles[i] < 0 || front.is_parted(leaf, i)) continue;
+      if (is_parted(mesh, triangles[i], moving, work)) {
+        note(i, walls_->parting_normal(), walls_->parting_room());
+        continue;
+      }
+      const Matrix3<Scalar> corners = corners_of(mesh, triangles[i], moving);
+      if (!passes(corners, moving)) continue;
+      if (last_ < planes_->size()) note(i, planes_->normal(last_), planes_->height(last_) - highest_corner(corners, planes_->normal(last_)));
+      else noted_lanes_ |= 1U << i;
+    }
+  }
+  template <class MeshScalar>
+  static Matrix3<Scalar> corners_of(const TriangleMesh<MeshScalar>& mesh, int triangle, const MovingTool<Tool>& moving) noexcept {
+    return mesh.corners(triangle).template cast<Scalar>().colwise() - moving.origin();
   }
 
   /// Whether a remembered plane parts the tool from a triangle.
@@ -453,6 +500,8 @@ class Sweep {
   Frame start_;
   Frame end_;
   int hidden_ = 0;  // triangles looked at whether a known wall hides them, since the work last grew for it
+  std::int32_t noted_leaf_ = -1;  // the last whose planes were noted, and its triangles that have one
+  unsigned noted_lanes_ = 0;
   int last_ = 0;  // of the planes to pass a triangle: its neighbours come next
   FixedVector<KnownPlane, 4> known_planes_;
   CoarsePlanes<Scalar, PlaneCache<Scalar>::capacity + 4> coarse_;

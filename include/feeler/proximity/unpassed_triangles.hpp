@@ -37,12 +37,12 @@ struct TraversalPlace {
   explicit TraversalPlace(const Order& order) noexcept : waiting(order) {}
 
   Order waiting;
-  std::array<std::int32_t, std::size_t(Order::leaves_at_once * BvhLeaf::width + 1)> unpassed;  // triangles; one more is written, and not counted
+  std::array<std::int32_t, std::size_t(Order::leaves_at_once * BvhLeaf::width + 1)> unpassed;  // places in leaves; one more is written, and not counted
   std::size_t unpassed_count = 0, next = 0;  // of them, and the first that was not visited
   int uncounted = 0;                         // nodes and leaves since the work last grew
 };
 
-/// Calls `visit(triangle)` for every triangle that none of the planes passes, and `may_go_on()` before, until one call is false; true when it came
+/// Calls `visit(leaf, lane)` for every triangle that none of the planes passes, and `may_go_on()` before, until one call is false; true when it came
 /// to the end. Both may change the planes. Called again with the same `place` it goes on there: with the triangle that it ended at.
 /// @param sift         `sift(node, passed)` may mark more of a node's children as passed
 /// @param planes       `CoarsePlanes`
@@ -54,7 +54,8 @@ bool visit_unpassed(const Bvh<Scalar>& bvh, Planes& planes, const PlaneCount& pl
   for (;;) {
     while (place.next < place.unpassed_count) {
       if (!may_go_on()) return false;
-      if (!visit(int(place.unpassed[place.next]))) return false;
+      const auto at = std::size_t(place.unpassed[place.next]);
+      if (!visit(std::int32_t(at / BvhLeaf::width), at % BvhLeaf::width)) return false;
       ++place.next;
     }
     if (place.waiting.empty()) return true;
@@ -80,9 +81,8 @@ bool visit_unpassed(const Bvh<Scalar>& bvh, Planes& planes, const PlaneCount& pl
       const auto passed = planes.passed(leaves, plane_count());
       for (std::size_t i = 0; i < leaves.size(); ++i) {
         for (std::size_t lane = 0; lane < passed[i].size(); ++lane) {
-          const std::int32_t triangle = leaves[i]->triangle[lane];
-          place.unpassed[count] = triangle;
-          count += std::size_t((passed[i][lane] == 0) & (triangle >= 0));
+          place.unpassed[count] = std::int32_t((leaves[i] - bvh.leaves().data()) * BvhLeaf::width) + std::int32_t(lane);
+          count += std::size_t(passed[i][lane] == 0) & std::size_t(leaves[i]->triangle[lane] >= 0);
         }
       }
     });

@@ -115,14 +115,14 @@ class WallPlanes {
     Cover& cover = covers_[place_of(triangle)];
     if (cover.triangle == triangle && cover.piece == piece_) {
       const Plane& plane = refreshed(plane_of(mesh, cover.wall, moving, start), moving, start, end, clearance);
-      if (plane.is_front == cover.is_front && parts(plane, cover.height, clearance)) return true;
+      if (plane.is_front == cover.is_front && parts(plane, cover.height, clearance)) return part(plane, cover.height);
     }
     const auto parted_by = [&](int wall) {
       const Plane& plane = refreshed(plane_of(mesh, wall, moving, start), moving, start, end, clearance);
       const Scalar height = height_of(mesh, triangle, plane.heights.normal);
       if (!parts(plane, height, clearance)) return false;
       cover = {triangle, std::int32_t(piece_), std::int32_t(wall), plane.is_front, height};
-      return true;
+      return part(plane, height);
     };
     if (parted_by(own)) return true;
     for (int k = 0; k < 3; ++k) {
@@ -134,6 +134,10 @@ class WallPlanes {
     }
     return false;
   }
+
+  /// The plane that parted the last triangle, and how far the tool was above it where the motion starts [m].
+  const Vector3<Scalar>& parting_normal() const noexcept { return parting_normal_; }
+  Scalar parting_room() const noexcept { return parting_room_; }
 
   /// Heights found since this was last called.
   int take_evaluations() noexcept { return std::exchange(evaluations_, 0); }
@@ -222,6 +226,12 @@ class WallPlanes {
     return plane;
   }
 
+  bool part(const Plane& plane, Scalar height) noexcept {
+    parting_normal_ = plane.heights.normal;
+    parting_room_ = plane.heights.start + plane.offset - height;
+    return true;
+  }
+
   bool parts(const Plane& plane, Scalar height, const Clearance<Scalar>& clearance) const noexcept {
     if (height <= plane.limit) return true;
     const bool is_behind = plane.known == motion_ && height <= plane.height + clearance.kept / 1000;
@@ -236,6 +246,8 @@ class WallPlanes {
   Matrix3<Scalar> axes_at_end_ = Matrix3<Scalar>::Zero();
   Vector3<Scalar> shift_ = Vector3<Scalar>::Zero(), last_shift_ = Vector3<Scalar>::Zero();  // to the end of the motion at hand, and of the last [m]
   int evaluations_ = 0;
+  Vector3<Scalar> parting_normal_ = Vector3<Scalar>::Zero();
+  Scalar parting_room_ = Scalar(0);
   std::vector<Plane> planes_;
   std::vector<Cover> covers_;
 };

@@ -28,8 +28,10 @@ class MotionCertificate {
   using Scalar = typename Scene::Scalar;
   using Piece = typename Scene::Piece;
 
-  explicit MotionCertificate(const Scene& scene)
-      : planes_(std::size_t(scene.piece_count())), walls_(scene.object().walls().count() > 0), groups_(std::size_t(scene.piece_count() - 1)) {}
+  explicit MotionCertificate(const Scene& scene) : walls_(scene.object().walls().count() > 0), groups_(std::size_t(scene.piece_count() - 1)) {
+    planes_.reserve(std::size_t(scene.piece_count()));
+    for (int i = 0; i < scene.piece_count(); ++i) planes_.emplace_back(scene.piece_count() == 1 ? leaves_of_one : leaves_of_many);
+  }
 
   void clear() noexcept {
     for (auto& planes : planes_) planes.clear();
@@ -113,6 +115,8 @@ class MotionCertificate {
   }
 
  private:
+  static constexpr int leaves_of_one = 512, leaves_of_many = 128;  // that are remembered, of a single piece and of each of many
+
   /// Pieces of a compound tool are few and fit tightly: there it matters more which triangle is met first.
   using Order = std::conditional_t<CompoundShape<ToolType>, NearestFirst, InBatches>;
 
