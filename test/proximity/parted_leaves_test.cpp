@@ -134,7 +134,7 @@ BOOST_AUTO_TEST_CASE(a_row_of_leaves_is_parted_where_each_of_its_triangles_is) {
   BOOST_TEST(leaves.are_parted(3, 4));
   BOOST_TEST(leaves.are_parted(5, 6));
   BOOST_TEST(!leaves.are_parted(3, 5));  // one triangle has no plane
-  BOOST_TEST(!leaves.has_plane(4, 0));
+  BOOST_TEST(!leaves.is_parted(4, 0));
   leaves.note(4, two, 0, up, 1e-3);
   leaves.begin(rest.moving(), 1e-6);
   BOOST_TEST(leaves.are_parted(3, 6));
@@ -182,37 +182,48 @@ BOOST_AUTO_TEST_CASE(leaves_beyond_the_capacity_are_not_kept_and_those_not_asked
   none.note(0, 1, 0, up, 1e-3);
   BOOST_TEST(none.begin(rest.moving(), 1e-6) == 0);
   BOOST_TEST(!none.is_parted(0, 0));
-  BOOST_TEST(!none.has_plane(0, 0));
 }
+
+namespace {
+/// A motion at rest that comes to some triangles, four a leaf, and notes a plane for each that is not parted.
+bool meet(PartedLeaves<double>& leaves, const RandomMotion<Box>& rest, int triangles, double room) {
+  leaves.begin(rest.moving(), 1e-6);
+  for (int i = 0; i < triangles; ++i) {
+    if (!leaves.is_parted(i / 4, std::size_t(i % 4)) && leaves.is_kept()) leaves.note(i / 4, 15, std::size_t(i % 4), up, room);
+  }
+  return leaves.is_kept();
+}
+constexpr double parting = 1e-3, not_parting = 0.5e-6;
+}  // namespace
 
 BOOST_AUTO_TEST_CASE(a_front_is_kept_where_many_triangles_are_near_and_it_pays) {
   const auto rest = resting_at(Vector::Zero());
   PartedLeaves<double> leaves(16, 8);
-  const auto meet = [&](int triangles, bool notes) {
-    leaves.begin(rest.moving(), 1e-6);
-    for (int i = 0; i < triangles; ++i) {
-      if (leaves.is_parted(i / 4, std::size_t(i % 4)) || !notes || !leaves.is_kept()) continue;
-      leaves.note(i / 4, 15, std::size_t(i % 4), up, 1e-3);
-    }
-  };
-  for (int motion = 0; motion < 3; ++motion) meet(7, true);
-  BOOST_TEST(!leaves.is_kept());
-  for (int motion = 0; motion < 20; ++motion) meet(8, true);
+  for (int motion = 0; motion < 3; ++motion) BOOST_TEST(!meet(leaves, rest, 7, parting));
+  for (int motion = 0; motion < 20; ++motion) meet(leaves, rest, 8, parting);
   BOOST_TEST(leaves.is_kept());  // told once, it tells each time
   BOOST_TEST(!leaves.empty());
 
-  const auto press = [&] {  // what is noted each time, and parts nothing
-    leaves.begin(rest.moving(), 1e-6);
-    for (int i = 0; i < 40; ++i) {
-      if (!leaves.is_parted(i / 4, std::size_t(i % 4)) && leaves.is_kept()) leaves.note(i / 4, 15, std::size_t(i % 4), up, 0.5e-6);
-    }
-    return leaves.is_kept();
-  };
-  leaves.clear();
+  PartedLeaves<double> told_in_vain(16, 8);
   int kept = 0;
-  for (int motion = 0; motion < 200; ++motion) kept += press();
+  for (int motion = 0; motion < 200; ++motion) kept += meet(told_in_vain, rest, 40, not_parting);
   BOOST_TEST(kept > 0);
   BOOST_TEST(kept < 40);
+}
+
+BOOST_AUTO_TEST_CASE(a_cleared_front_does_what_a_new_one_does) {
+  const auto rest = resting_at(Vector(3, 1, 2));
+  for (const int used : {1, 2, 5, 20}) {  // kept, on trial, given up
+    for (const double room : {parting, not_parting}) {
+      PartedLeaves<double> cleared(16, 8), fresh(16, 8);
+      for (int motion = 0; motion < used; ++motion) meet(cleared, resting_at(Vector(3, 1, 2.001)), 40, room);
+      cleared.clear();
+      for (int motion = 0; motion < 200; ++motion) {
+        BOOST_TEST(meet(cleared, rest, 40, motion % 9 < 6 ? parting : not_parting) == meet(fresh, rest, 40, motion % 9 < 6 ? parting : not_parting));
+        BOOST_TEST(cleared.empty() == fresh.empty());
+      }
+    }
+  }
 }
 
 BOOST_AUTO_TEST_SUITE_END()

@@ -172,7 +172,7 @@ class Bvh {
 
   /// The leaves under a node come one after another: those that are its children, and those of each other child in turn.
   void find_ranges() {
-    ranges_.assign(nodes_.size(), {std::numeric_limits<std::int32_t>::max(), 0});
+    ranges_.assign(nodes_.size(), {(std::numeric_limits<std::int32_t>::max)(), 0});
     for (std::size_t n = nodes_.size(); n-- > 0;) {  // children come after their parent
       for (const std::int32_t child : nodes_[n].child) {
         if (child == 0) continue;

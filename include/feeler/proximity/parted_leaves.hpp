@@ -10,7 +10,6 @@
 #include <utility>
 #include <vector>
 
-#include "feeler/core/lanes.hpp"
 #include "feeler/core/scalar.hpp"
 #include "feeler/object/bvh.hpp"
 #include "feeler/spatial/pose.hpp"
@@ -35,7 +34,16 @@ class PartedLeaves {
   explicit PartedLeaves(int capacity = 0, int worth_keeping = 64)
       : leaves_(std::size_t(capacity)), bad_(std::size_t(capacity) + 1), notes_(BvhLeaf::width * std::size_t(capacity)), worth_keeping_(std::size_t(worth_keeping)) {}
 
-  void clear() noexcept { count_ = note_count_ = 0; }
+  /// As it was made.
+  void clear() noexcept {
+    forget_leaves();
+    asked_ = told_ = noted_ = 0;
+    gain_ = motions_ = paused_ = 0;
+    is_kept_ = false;
+    rotation_ = Quaternion<Scalar>::Identity();
+    origin_ = reference_ = Vector3<Scalar>::Zero();
+    turned_ = Scalar(0);
+  }
   bool empty() const noexcept { return count_ == 0; }
   /// Whether planes are worth a note.
   bool is_kept() const noexcept { return is_kept_; }
@@ -93,12 +101,6 @@ class PartedLeaves {
     return parted != 0;
   }
 
-  /// Whether a plane above it is known.
-  bool has_plane(std::int32_t leaf, std::size_t lane) const noexcept {
-    const std::size_t at = find(leaf);
-    return at < count_ && leaves_[at].room[lane] > -std::numeric_limits<float>::infinity();
-  }
-
   /// A plane above a triangle of a leaf, for the motions to come.
   /// @param lanes  those of the leaf with a triangle, a bit each
   /// @param room   height of the tool above the triangle at the start of the motion at hand [m]
@@ -133,6 +135,8 @@ class PartedLeaves {
     float room;
   };
 
+  void forget_leaves() noexcept { count_ = note_count_ = 0; }
+
   /// Whether the front is kept for the motion to come: where many triangles are near, and it has told of more than it had to be told.
   bool decide() noexcept {
     const std::size_t met = std::exchange(asked_, 0) + width * count_;
@@ -141,7 +145,7 @@ class PartedLeaves {
     const bool was_kept = std::exchange(is_kept_, !leaves_.empty() && paused_ == 0 && met >= worth_keeping_);
     if (paused_ > 0) --paused_;
     if (was_kept && !is_kept_) {
-      clear();
+      forget_leaves();
       gain_ = motions_ = 0;
     }
     return is_kept_;
@@ -170,7 +174,7 @@ class PartedLeaves {
     rotation_ = rotation;
     origin_ = moving.origin();
     if (!((origin_ - reference_).norm() + turned_ < moving.radius())) {
-      clear();
+      forget_leaves();
       reference_ = origin_;
       turned_ = Scalar(0);
     }

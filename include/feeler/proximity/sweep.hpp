@@ -282,14 +282,14 @@ class Sweep {
   bool traverse(const TriangleMesh<MeshScalar>& mesh, const MovingTool<Tool>& moving, int& work, const IsKnown& is_known,
                 const IsWallParted& is_wall_parted, const Visit& visit, const MayGoOn& may_go_on) noexcept {
     const auto look_at = [&](std::int32_t leaf, std::size_t lane) {
-      if (planes_->leaves().is_parted(leaf, lane)) return true;
+      if (leaf == noted_leaf_ ? has_passed(lane) : planes_->leaves().is_parted(leaf, lane)) return true;
       const int triangle = mesh.bvh().leaves()[std::size_t(leaf)].triangle[lane];
       if (is_known(triangle)) return true;
-      if (planes_->leaves().is_kept()) {
-        if (leaf != noted_leaf_) note_planes(mesh, leaf, moving, work);
-        if ((noted_lanes_ >> lane & 1U) != 0) return true;
-      } else if (is_parted(mesh, triangle, moving, work)) {
-        return true;
+      if (!planes_->leaves().is_kept()) {
+        if (is_parted(mesh, triangle, moving, work)) return true;
+      } else if (leaf != noted_leaf_) {
+        note_planes(mesh, leaf, lane, moving, work);
+        if (has_passed(lane)) return true;
       }
       const Matrix3<Scalar> corners = corners_of(mesh, triangle, moving);
       return passes(corners, moving) || visit(triangle, corners);
@@ -314,20 +314,25 @@ class Sweep {
   }
 
   /// Planes that part the tool from the triangles of a leaf, all of them: the leaf that has one for each need not be visited again.
+  /// @param unparted  a lane that the front was asked for
   template <class MeshScalar>
-  void note_planes(const TriangleMesh<MeshScalar>& mesh, std::int32_t leaf, const MovingTool<Tool>& moving, int& work) noexcept {
+  void note_planes(const TriangleMesh<MeshScalar>& mesh, std::int32_t leaf, std::size_t unparted, const MovingTool<Tool>& moving, int& work) noexcept {
     auto& front = planes_->leaves();
     const auto& triangles = mesh.bvh().leaves()[std::size_t(leaf)].triangle;
     unsigned there = 0;
     for (std::size_t i = 0; i < BvhLeaf::width; ++i) there |= unsigned(triangles[i] >= 0) << i;
     noted_leaf_ = leaf;
-    noted_lanes_ = 0;
+    passed_lanes_ = 0;
     const auto note = [&](std::size_t lane, const Vector& normal, const Scalar& room) {
       if (room > clearance_.kept) front.note(leaf, there, lane, normal, room);
-      noted_lanes_ |= 1U << lane;
+      passed_lanes_ |= 1U << lane;
     };
     for (std::size_t i = 0; i < BvhLeaf::width; ++i) {
-      if (triangles[i] < 0 || front.is_parted(leaf, i)) continue;
+      if (triangles[i] < 0) continue;
+      if (i != unparted && front.is_parted(leaf, i)) {
+        passed_lanes_ |= 1U << i;
+        continue;
+      }
       if (is_parted(mesh, triangles[i], moving, work)) {
         note(i, walls_->parting_normal(), walls_->parting_room());
         continue;
@@ -335,9 +340,11 @@ class Sweep {
       const Matrix3<Scalar> corners = corners_of(mesh, triangles[i], moving);
       if (!passes(corners, moving)) continue;
       if (last_ < planes_->size()) note(i, planes_->normal(last_), planes_->height(last_) - highest_corner(corners, planes_->normal(last_)));
-      else noted_lanes_ |= 1U << i;
+      else passed_lanes_ |= 1U << i;
     }
   }
+  /// Whether a triangle of the leaf whose planes were noted last was passed.
+  bool has_passed(std::size_t lane) const noexcept { return (passed_lanes_ >> lane & 1U) != 0; }
   template <class MeshScalar>
   static Matrix3<Scalar> corners_of(const TriangleMesh<MeshScalar>& mesh, int triangle, const MovingTool<Tool>& moving) noexcept {
     return mesh.corners(triangle).template cast<Scalar>().colwise() - moving.origin();
@@ -500,8 +507,8 @@ class Sweep {
   Frame start_;
   Frame end_;
   int hidden_ = 0;  // triangles looked at whether a known wall hides them, since the work last grew for it
-  std::int32_t noted_leaf_ = -1;  // the last whose planes were noted, and its triangles that have one
-  unsigned noted_lanes_ = 0;
+  std::int32_t noted_leaf_ = -1;  // the last whose planes were noted, and its triangles that were passed then
+  unsigned passed_lanes_ = 0;
   int last_ = 0;  // of the planes to pass a triangle: its neighbours come next
   FixedVector<KnownPlane, 4> known_planes_;
   CoarsePlanes<Scalar, PlaneCache<Scalar>::capacity + 4> coarse_;
