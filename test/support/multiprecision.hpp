@@ -10,6 +10,8 @@ namespace feeler_test {
 
 /// 50 decimal digits.
 using Float50 = boost::multiprecision::cpp_bin_float_50;
+/// The 113 binary digits of IEEE's quad.
+using Quad = boost::multiprecision::cpp_bin_float_quad;
 /// Fractions without rounding.
 using Rational =
     boost::multiprecision::number<boost::multiprecision::cpp_rational_backend, boost::multiprecision::et_off>;

@@ -1,0 +1,142 @@
+// The study of accuracy and speed: every scene with every choice, measured against the rigid problem solved in 50 digits.
+#include <chrono>
+#include <cstdio>
+#include <filesystem>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include <unistd.h>
+
+#include <CLI/CLI.hpp>
+
+#include "command_line.hpp"
+#include "study/figures.hpp"
+#include "study/figures_of_cell.hpp"
+#include "study/proof.hpp"
+#include "study/sweeps.hpp"
+#include "study/table.hpp"
+
+namespace {
+
+using namespace feeler::study;
+
+struct Options {
+  Selection selection;
+  std::filesystem::path out = "build/study";
+  double seconds = 0;  // of the motion; 0: 2, and 0.5 of a quick one
+  unsigned seed = 1;
+  int shard = 1, shards = 1;
+  std::vector<std::string> merged;
+  int proofs = 0;
+  bool is_listed = false, draws = true, draws_only = false;
+};
+
+/// "2/8" as numbers.
+void read_shard(const std::string& text, Options& options) {
+  if (text.empty()) return;
+  int end = 0;
+  if (std::sscanf(text.c_str(), "%d/%d%n", &options.shard, &options.shards, &end) != 2 || std::size_t(end) != text.size() || options.shard < 1 || options.shard > options.shards)
+    throw std::invalid_argument("--shard is " + text + "; give one of so many, such as 2/8.");
+}
+
+/// One line on the standard error: where the study is and how long it will take.
+class Progress {
+ public:
+  explicit Progress(int total) : total_(total), is_screen_(isatty(STDERR_FILENO) != 0) {}
+  void say(int done, const std::string& key) {
+    const double elapsed = std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
+    const int left = done > 0 ? int(elapsed / done * (total_ - done)) : 0;
+    if (is_screen_) {
+      std::fprintf(stderr, "\r\033[K[%d/%d] %d:%02d left  %.90s", done, total_, left / 60, left % 60, key.c_str());
+    } else if (total_ >= 100 && done * 20 / total_ != told_) {
+      told_ = done * 20 / total_;
+      std::fprintf(stderr, "[%d/%d] %d:%02d left\n", done, total_, left / 60, left % 60);
+    }
+  }
+  void end() const {
+    if (is_screen_) std::fprintf(stderr, "\r\033[K");
+  }
+
+ private:
+  int total_, told_ = -1;
+  bool is_screen_;
+  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+};
+
+int list(const std::vector<Cell>& cells) {
+  std::printf("renderings:\n");
+  for (const auto& rendering : renderings()) std::printf("  %-16s %s, %s, %s\n", rendering.name.c_str(), rendering.scalar.c_str(), rendering.solver.c_str(), rendering.method.c_str());
+  std::printf("sweeps:\n");
+  for (const auto& sweep : sweeps()) std::printf("  %-16s %s\n", sweep.name.c_str(), sweep.question.c_str());
+  std::printf("cells:\n");
+  for (std::size_t i = 0; i < cells.size(); ++i) std::printf("  %4zu %s\n", i, cells[i].key().c_str());
+  return 0;
+}
+
+void draw(const std::filesystem::path& folder) {
+  if (!draw_figures(folder)) std::fprintf(stderr, "gnuplot is missing or failed; the figures are not drawn\n");
+}
+
+int study(const Options& options) {
+  const auto cells = cells_of(options.selection);
+  if (options.is_listed) return list(cells);
+  const double seconds = options.seconds > 0 ? options.seconds : options.selection.is_quick ? 0.5 : 2;
+  Table table(options.out, cells, provenance(seconds, options.seed));
+  std::vector<int> todo;
+  for (int i = 0; i < int(cells.size()); ++i)
+    if (i % options.shards == options.shard - 1 && !table.has(i)) todo.push_back(i);
+  TruthPaths paths(seconds);
+  Progress progress(int(todo.size()));
+  for (std::size_t i = 0; i < todo.size(); ++i) {
+    const Cell& cell = cells[std::size_t(todo[i])];
+    progress.say(int(i), cell.key());
+    table.add(todo[i], cell, figures_of(cell, seconds, options.seed, paths));
+  }
+  progress.end();
+  table.sort();
+  std::printf("%s: %zu cells measured, %zu were there\n", (options.out / results_name).c_str(), todo.size(), cells.size() / std::size_t(options.shards) - std::min(cells.size() / std::size_t(options.shards), todo.size()));
+  if (options.draws && options.shards == 1) draw(options.out);
+  return 0;
+}
+
+/// @return 1 where the truth is not proved
+int prove(const Options& options) {
+  const auto only = options.selection.scenes.empty() ? std::string() : options.selection.scenes.front();
+  const ProofFigures figures = prove_truth(options.proofs, options.seed, only);
+  std::printf("cells %d, with a minimum %d, in contact %d\n", figures.asked, figures.found, figures.in_contact);
+  std::printf("changed by two more steps of Newton's method: %.2g m at most; last step %.2g m; least curvature %.2g\n", figures.tightened, figures.last_step, figures.least_curvature);
+  std::printf("poses tried that are nearer to the hand: %d; free, by the checker: %d\n", figures.searched, figures.better);
+  return figures.tightened < 1e-20 && figures.better == 0 ? 0 : 1;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  Options options;
+  std::string shard;
+  CLI::App app("feeler-study: what accuracy costs, and what speed: every cell measured against the rigid problem solved in 50 digits", "feeler-study");
+  app.add_option("--scene", options.selection.scenes, "scenes, by name; all where not given")->delimiter(',');
+  app.add_option("--sweep", options.selection.sweeps, "what is varied, by name; everything where not given")->delimiter(',');
+  app.add_option("--rendering", options.selection.renderings, "scalar, QP solver and contact method, by name; all where not given")->delimiter(',');
+  app.add_flag("--quick", options.selection.is_quick, "few values, few scenes and half a second: under two minutes");
+  app.add_flag("--list", options.is_listed, "name renderings, sweeps and the cells of the selection, and end");
+  app.add_option("--out", options.out, "folder of study.csv, study_times.csv and the figures; what is there is gone on with");
+  app.add_option("--seconds", options.seconds, "length of the motion")->check(CLI::Range(0.1, 1000.0));
+  app.add_option("--seed", options.seed, "of how generated surfaces are cut");
+  app.add_option("--shard", shard, "one part of several, such as 2/8: every eighth cell from the second on");
+  app.add_option("--merge", options.merged, "folders of shards to make one of, in --out; nothing is measured");
+  app.add_flag("!--no-figures", options.draws, "draw nothing");
+  app.add_flag("--figures", options.draws_only, "draw the figures of --out again, and measure nothing");
+  app.add_option("--prove", options.proofs, "test the truth itself on so many random cells, and measure nothing")->check(CLI::NonNegativeNumber);
+  return feeler::bench::run_with_options(app, argc, argv, [&] {
+    read_shard(shard, options);
+    if (options.proofs > 0) return prove(options);
+    if (!options.merged.empty()) merge({options.merged.begin(), options.merged.end()}, options.out);
+    if (options.draws_only || !options.merged.empty()) {
+      if (options.draws_only || options.draws) draw(options.out);
+      return 0;
+    }
+    return study(options);
+  });
+}

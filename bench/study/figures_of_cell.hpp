@@ -1,0 +1,62 @@
+// What one cell of the study gave.
+#pragma once
+
+#include <map>
+#include <memory>
+#include <string>
+#include <tuple>
+#include <vector>
+
+#include "study/truth.hpp"
+
+namespace feeler::study {
+
+/// Poses that a renderer without limits comes to with the same hand, each carried on in 50 digits to the minimum at some distance from the object.
+struct TruthPath {
+  struct Sample {
+    double time = 0;  ///< [s]
+    Pose<Wide> pose;
+    Vector3<Wide> force, torque;
+    bool is_in_contact = false;
+  };
+  static constexpr int samples_a_second = 50;
+
+  std::vector<Sample> samples;
+  int missing = 0;  ///< samples for which there is no proved minimum; they are left out
+};
+
+/// Makes each path once.
+class TruthPaths {
+ public:
+  explicit TruthPaths(double seconds) : seconds_(seconds) {}
+  /// @param margin  of that renderer [m]
+  /// @param kept    distance from the object [m]; next to nothing for the rigid problem
+  const TruthPath& of(const StudyScene& scene, const Cell& cell, const Truth& truth, double margin, double kept);
+
+ private:
+  double seconds_;
+  std::map<std::tuple<std::string, double, double, double, double>, TruthPath> made_;  // by scene, scale, offset, margin, distance
+};
+
+/// Errors are those of the samples, from the rigid problem, and so the margin is one of them; shares are of one.
+struct CellFigures {
+  std::string refusal;  ///< the sentence, where the renderer refuses the cell; then nothing else counts
+  int samples = 0, samples_without_truth = 0;
+  double converged = 0;                                 ///< share of all ticks
+  double error_median = 0, error_99 = 0, error_most = 0;  ///< a point of the tool is off by at most [m]
+  double solver_error_median = 0, solver_error_99 = 0;    ///< the same from the minimum at the cell's own margin [m]
+  double within_tenth_micrometre = 0, within_micrometre = 0;
+  double deepest = 0;                          ///< penetration, by the checker that shares no code with the library [m]
+  double separation = 0;                       ///< median of the contacts [m]
+  double force_error_median = 0, force_error_99 = 0;  ///< [N]
+  double force_jnd_99 = 0, torque_jnd_99 = 0;  ///< in just-noticeable differences
+  double jitter_99 = 0;                        ///< second difference of the force from tick to tick [N]
+  double lag = 0;                              ///< longest time without a converged tick [s]
+  double work_median = 0, work_99 = 0, work_most = 0;
+  double time_median = 0, time_99 = 0, time_999 = 0, time_most = 0;  ///< of ticks in contact, processor time [µs]
+};
+
+/// @param seconds  of the motion
+CellFigures figures_of(const Cell& cell, double seconds, unsigned seed, TruthPaths& paths);
+
+}  // namespace feeler::study

@@ -1,0 +1,101 @@
+#include "study/sweeps.hpp"
+
+#include <algorithm>
+#include <initializer_list>
+#include <set>
+#include <stdexcept>
+
+#include "study/player.hpp"
+#include "study/scenes.hpp"
+
+namespace feeler::study {
+namespace {
+
+bool is_among(const std::vector<std::string>& list, const std::string& name) { return list.empty() || std::find(list.begin(), list.end(), name) != list.end(); }
+
+void check_names(const char* what, const std::vector<std::string>& asked, const std::vector<std::string>& known) {
+  for (const auto& name : asked) {
+    if (std::find(known.begin(), known.end(), name) != known.end()) continue;
+    std::string text = std::string("There is no ") + what + " " + name + "; there are:";
+    for (const auto& other : known) text += " " + other;
+    throw std::invalid_argument(text + ".");
+  }
+}
+
+template <class Value>
+std::vector<Value> some(bool is_quick, std::initializer_list<Value> all, std::initializer_list<Value> few) {
+  return is_quick ? few : all;
+}
+
+/// Scenes that are moved away and scaled: one of each kind.
+const std::vector<std::string> small_scenes{"bore_24", "plate_2", "wedge_4"};
+
+}  // namespace
+
+const std::vector<Sweep>& sweeps() {
+  static const std::vector<Sweep> list{
+      {"renderings", "what do scalar, QP solver and contact method change?"},
+      {"margin", "what does the margin cost?"},
+      {"budget", "what does a unit of work buy?"},
+      {"iterations", "what does a linearisation buy?"},
+      {"rate", "what does the rate change?"},
+      {"offset", "how far from the origin does a scalar reach?"},
+      {"scale", "for which sizes do the defaults hold?"},
+      {"front", "which settings are both faster and more exact?"},
+  };
+  return list;
+}
+
+std::vector<Cell> cells_of(const Selection& selection) {
+  std::vector<std::string> known_sweeps, known_renderings;
+  for (const auto& sweep : sweeps()) known_sweeps.push_back(sweep.name);
+  for (const auto& rendering : renderings()) known_renderings.push_back(rendering.name);
+  check_names("sweep", selection.sweeps, known_sweeps);
+  check_names("scene", selection.scenes, scene_names());
+  check_names("rendering", selection.renderings, known_renderings);
+
+  const bool quick = selection.is_quick;
+  const std::vector<std::string> quick_scenes{"cavity_1mm", "spline_20um", "sulcus", "terrain_968", "bore_24", "wedge_4"};
+  std::vector<Cell> cells;
+  std::set<std::string> known;
+  const auto add = [&](const Cell& cell) {
+    if (!is_among(selection.scenes, cell.scene) || !is_among(selection.renderings, cell.rendering)) return;
+    if (quick && selection.scenes.empty() && !is_among(quick_scenes, cell.scene) && !is_among(small_scenes, cell.scene)) return;
+    if (cell.rendering != "double" && has_several_pieces(cell.scene)) return;
+    if (!is_among(known_renderings, cell.rendering)) return;
+    if (known.insert(cell.key()).second) cells.push_back(cell);
+  };
+  const auto vary = [&](const std::vector<std::string>& scenes, const auto& values, const auto& change) {
+    for (const auto& scene : scenes)
+      for (const auto& value : values) {
+        Cell cell{.scene = scene};
+        change(cell, value);
+        add(cell);
+      }
+  };
+  const auto scenes = scene_names();
+  const std::vector<std::string> scalars{"float", "double", "long_double", "quad"};
+  for (const auto& sweep : sweeps()) {
+    if (!is_among(selection.sweeps, sweep.name)) continue;
+    if (sweep.name == "renderings") vary(scenes, known_renderings, [](Cell& cell, const std::string& name) { cell.rendering = name; });
+    if (sweep.name == "margin") vary(scenes, some<double>(quick, {1e-8, 1e-7, 1e-6, 1e-5, 1e-4}, {1e-7, 1e-6, 1e-5}), [](Cell& cell, double value) { cell.margin = value; });
+    if (sweep.name == "budget") vary(scenes, some(quick, {16, 32, 64, 128, 256, 512, 2048}, {32, 128, 512}), [](Cell& cell, int value) { cell.budget = value; });
+    if (sweep.name == "iterations") vary(scenes, some(quick, {1, 2, 3, 4, 6, 12, 32}, {1, 4, 12}), [](Cell& cell, int value) { cell.iterations = value; });
+    if (sweep.name == "rate") vary(scenes, some(quick, {250, 500, 1000, 2000, 4000, 10000}, {500, 1000, 4000}), [](Cell& cell, int value) { cell.rate = value; });
+    for (const auto& scalar : scalars) {
+      if (sweep.name == "offset")
+        vary(small_scenes, some<double>(quick, {0, 1, 10, 1e2, 1e3, 1e4, 1e5, 1e6}, {0, 1, 1e3}), [&](Cell& cell, double value) { cell.rendering = scalar, cell.offset = value; });
+      if (sweep.name == "scale")
+        vary(small_scenes, some<double>(quick, {1e-3, 1e-2, 1e-1, 1, 10, 100, 1e3}, {0.1, 1, 10}), [&](Cell& cell, double value) { cell.rendering = scalar, cell.scale = value; });
+    }
+    if (sweep.name == "front" && !quick)
+      for (const auto& scene : scenes)
+        for (const double margin : {1e-7, 1e-6, 1e-5})
+          for (const int budget : {32, 64, 128, 256})
+            for (const int iterations : {2, 4, 12}) add({.scene = scene, .margin = margin, .budget = budget, .iterations = iterations});
+  }
+  if (cells.empty()) throw std::invalid_argument("These filters leave no cell; --list shows what there is.");
+  return cells;
+}
+
+}  // namespace feeler::study

@@ -1,0 +1,27 @@
+// Which cells make up the study.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "study/cell.hpp"
+
+namespace feeler::study {
+
+/// A set of cells that answers one question.
+struct Sweep {
+  std::string name, question;
+};
+const std::vector<Sweep>& sweeps();
+
+/// What is asked for; empty lists ask for all.
+struct Selection {
+  std::vector<std::string> scenes, sweeps, renderings;
+  bool is_quick = false;  ///< few values and few scenes
+};
+
+/// The cells of a selection, each once, in the order of the tables.
+/// @throws std::invalid_argument  for a name that there is not
+std::vector<Cell> cells_of(const Selection& selection);
+
+}  // namespace feeler::study

@@ -1,0 +1,54 @@
+// The study's two files: results, which are the same bytes however they came about, and times, which are not.
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "study/figures_of_cell.hpp"
+
+namespace feeler::study {
+
+/// Said in each row: which program, on which machine.
+struct Provenance {
+  std::string commit, compiler, processor;
+  double seconds = 2;  ///< of the motion
+  unsigned seed = 1;
+};
+Provenance provenance(double seconds, unsigned seed);
+
+inline constexpr const char* results_name = "study.csv";
+inline constexpr const char* times_name = "study_times.csv";
+
+/// A row of each file for every cell that is done, by the cell's number. Rows are added as cells end and are on disk at once; a run that was killed goes on
+/// from them.
+class Table {
+ public:
+  /// Opens the files of a folder, makes them where they are not, and keeps the rows of these cells. A row that was cut short is dropped.
+  /// @throws std::runtime_error  where they cannot be read or written, or hold rows of another program, motion or selection
+  Table(const std::filesystem::path& folder, const std::vector<Cell>& cells, const Provenance& provenance);
+
+  bool has(int number) const { return results_.contains(number); }
+  /// @throws std::runtime_error  where the row does not reach the disk: what was there before is there still
+  void add(int number, const Cell& cell, const CellFigures& figures);
+  /// Writes both files anew, in the order of the cells.
+  void sort() const;
+
+ private:
+  std::filesystem::path folder_;
+  std::string tail_;                    // columns that are the same in each row
+  std::map<int, std::string> results_;  // rows by number
+  std::map<int, std::string> times_;
+};
+
+/// The files of several folders as one.
+/// @throws std::runtime_error  where a file is missing or cut short, a row is in two with other figures, or one is in none
+void merge(const std::vector<std::filesystem::path>& from, const std::filesystem::path& into);
+
+/// A row as names and values.
+using Row = std::map<std::string, std::string>;
+/// @throws std::runtime_error  where the file cannot be read
+std::vector<Row> read_rows(const std::filesystem::path& file);
+
+}  // namespace feeler::study

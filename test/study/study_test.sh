@@ -1,0 +1,64 @@
+#!/bin/sh
+# The files of the study are the same bytes in one run, in shards, and after a kill; what cannot be done is said, and nothing is lost.
+# usage: study_test.sh feeler-study folder
+set -eu
+study=$1
+folder=$2
+rm -rf "$folder"
+mkdir -p "$folder"
+cd "$folder"
+choose='--quick --scene cavity_1mm,wedge_4 --sweep margin,iterations --seconds 0.2 --no-figures'
+fail() {
+  echo "study_test: $*" >&2
+  exit 1
+}
+# usage: refuses words option…: exit code 2, and a sentence with these words
+refuses() {
+  words=$1
+  shift
+  code=0
+  "$study" "$@" >/dev/null 2>said || code=$?
+  [ $code = 2 ] || fail "exit code $code, not 2: $*"
+  grep -q "$words" said || fail "'$words' is not in: $(cat said)"
+}
+
+# shellcheck disable=SC2086
+{
+  "$study" $choose --out whole
+  [ "$(wc -l <whole/study.csv)" = 11 ] || fail "10 cells and a head were to be written"
+  for i in 1 2 3; do "$study" $choose --shard $i/3 --out part$i; done
+  "$study" --merge part1 part2 part3 --out merged --no-figures
+  cmp whole/study.csv merged/study.csv
+  rm part2/study.csv
+  refuses 'is not there' --merge part1 part2 part3 --out merged
+  refuses 'is in none of the folders' --merge part1 part3 --out merged
+
+  # Killed: some rows, the last of them cut in half.
+  mkdir killed
+  head -n 5 whole/study.csv >killed/study.csv
+  tail -n 1 whole/study.csv | cut -c 1-40 | tr -d '\n' >>killed/study.csv
+  head -n 6 whole/study_times.csv >killed/study_times.csv
+  refuses 'was cut short' --merge killed --out merged
+  "$study" $choose --out killed | grep -q '6 cells measured, 4 were there' || fail "a run that was killed was to go on"
+  cmp whole/study.csv killed/study.csv
+
+  refuses 'another build, machine, motion or selection' $choose --seed 2 --out whole
+  refuses 'cannot be made' $choose --out /dev/null/study
+
+  # A disk that is full, to the program: files of no more than 2 kB.
+  (
+    trap '' XFSZ
+    ulimit -f 4
+    refuses 'cannot be written' $choose --out full
+  )
+  "$study" $choose --out full | grep -q ', 0 were there' && fail "rows were lost"
+  cmp whole/study.csv full/study.csv
+}
+printf 'colour,shape\nred,round\n' >whole/study.csv
+refuses 'names other columns' --sweep margin --scene wedge_4 --out whole
+refuses 'There is no scene cavern' --scene cavern
+refuses 'There is no sweep colour' --sweep colour
+refuses 'leave no cell' --sweep offset --scene cavity_1mm
+refuses 'such as 2/8' --shard 9/8
+refuses 'such as 2/8' --shard some
+"$study" --list | grep -q 'what does the margin cost' || fail "--list names the sweeps"
