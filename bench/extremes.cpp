@@ -32,7 +32,8 @@ struct Options {
 std::string length(double metres) {
   char text[40];
   if (metres < 0) return "–";
-  std::snprintf(text, sizeof text, metres == 0 ? "0" : "%.1e", metres);
+  if (metres == 0) return "0";
+  std::snprintf(text, sizeof text, "%.0e", metres);
   return text;
 }
 
@@ -40,9 +41,44 @@ std::string outcome_of(const Case& one, const Finding& finding) {
   if (!finding.fault.empty()) return "FAILS: " + finding.fault;
   if (!finding.refusal.empty()) {
     const auto start = finding.refusal.find(": ") == std::string::npos ? 0 : finding.refusal.find(": ") + 2;
-    return "refused: " + finding.refusal.substr(start, finding.refusal.find(';') - start);
+    return "refused: " + finding.refusal.substr(start, finding.refusal.find_first_of(",;", start) - start);
   }
   return finding.is_at_rest ? "at rest" : "free" + (one.remark.empty() ? "" : ": " + one.remark);
+}
+
+void print(const Case& one, const std::string& scalar, const Finding& finding) {
+  const bool is_rendered = finding.refusal.empty();
+  std::printf("%-20s %-40s %-12s %9s %9s %5.0f %8.1f  %s\n", one.group.c_str(), one.name.c_str(), scalar.c_str(), is_rendered ? length(finding.deepest).c_str() : "–",
+              is_rendered ? length(finding.distance).c_str() : "–", 100 * finding.converged, finding.microseconds, outcome_of(one, finding).c_str());
+  std::fflush(stdout);
+}
+
+void print_markdown_head(const std::vector<std::string>& renderings) {
+  std::string head = "| what | case | deepest [m] |", rule = "|---|---|---|";
+  for (const auto& rendering : renderings) head += " off, `" + study::rendering(rendering).scalar + "` [m] |", rule += "---|";
+  std::printf("%s converged %% | median µs | in the end |\n%s---|---|---|\n", head.c_str(), rule.c_str());
+}
+
+/// One line a case: the deepest of all scalars; share and time of the first that renders it; outcomes, where they differ by scalar.
+void print_markdown(const Case& one, const std::vector<std::string>& renderings, const std::vector<Finding>& findings) {
+  const auto first = std::find_if(findings.begin(), findings.end(), [](const Finding& finding) { return finding.refusal.empty(); });
+  std::string line = "| " + one.group + " | " + one.name + " | ", outcomes = outcome_of(one, findings.front());
+  double deepest = 0;
+  bool is_same = true;
+  for (const Finding& finding : findings) {
+    deepest = std::max(deepest, finding.deepest);
+    is_same = is_same && outcome_of(one, finding) == outcomes;
+  }
+  line += (first == findings.end() ? "–" : length(deepest)) + " |";
+  for (const Finding& finding : findings) line += " " + (finding.refusal.empty() ? length(finding.distance) : "–") + " |";
+  if (!is_same) {
+    outcomes.clear();
+    for (std::size_t i = 0; i < findings.size(); ++i) outcomes += (i > 0 ? "; `" : "`") + study::rendering(renderings[i]).scalar + "` " + outcome_of(one, findings[i]);
+  }
+  char numbers[80];
+  std::snprintf(numbers, sizeof numbers, first == findings.end() ? " – | – |" : " %.0f | %.0f |", first == findings.end() ? 0 : 100 * first->converged, first == findings.end() ? 0 : first->microseconds);
+  std::printf("%s%s %s |\n", line.c_str(), numbers, outcomes.c_str());
+  std::fflush(stdout);
 }
 
 /// @return 1 where a case is not as expected
@@ -62,22 +98,22 @@ int run_battery(const Options& options) {
     for (const auto& rendering : study::renderings())
       if (rendering.name == "double" || rendering.name == "float" || rendering.name == "long_double") chosen.push_back(rendering.name);
   for (const auto& name : chosen) study::rendering(name);
-  const char* row = options.is_markdown ? "| %s | %s | %s | %s | %s | %.0f | %.1f | %s |\n" : "%-20s %-40s %-12s %9s %9s %5.0f %8.1f  %s\n";
-  if (options.is_markdown)
-    std::printf("| what | case | scalar | deepest [m] | off the nearest [m] | converged %% | median µs | outcome |\n|---|---|---|---|---|---|---|---|\n");
-  else
+  if (options.is_markdown) {
+    print_markdown_head(chosen);
+  } else {
     std::printf("%-20s %-40s %-12s %9s %9s %5s %8s  %s\n", "what", "case", "scalar", "deepest", "off", "conv%", "µs", "outcome");
+  }
   int failed = 0, count = 0;
   for (const Case& one : cases()) {
     if (!is_among(options.groups, one.group)) continue;
+    std::vector<Finding> findings;
     for (const auto& rendering : chosen) {
-      const Finding finding = try_case(one, rendering);
+      const Finding& finding = findings.emplace_back(try_case(one, rendering));
       ++count;
       failed += !finding.fault.empty();
-      const std::string scalar = study::rendering(rendering).scalar, deepest = finding.refusal.empty() ? length(finding.deepest) : "–", off = finding.refusal.empty() ? length(finding.distance) : "–";
-      std::printf(row, one.group.c_str(), one.name.c_str(), scalar.c_str(), deepest.c_str(), off.c_str(), 100 * finding.converged, finding.microseconds, outcome_of(one, finding).c_str());
-      std::fflush(stdout);
+      if (!options.is_markdown) print(one, study::rendering(rendering).scalar, finding);
     }
+    if (options.is_markdown) print_markdown(one, chosen, findings);
   }
   std::printf("%s%d of %d as expected\n", options.is_markdown ? "\n" : "", count - failed, count);
   return failed == 0 ? 0 : 1;

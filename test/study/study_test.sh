@@ -2,6 +2,7 @@
 # The files of the study are the same bytes in one run, in shards, and after a kill; what cannot be done is said, and nothing is lost.
 # usage: study_test.sh feeler-study folder
 set -eu
+here=$(cd "$(dirname "$0")" && pwd)
 study=$1
 folder=$2
 rm -rf "$folder"
@@ -29,6 +30,20 @@ refuses() {
   for i in 1 2 3; do "$study" $choose --shard $i/3 --out part$i; done
   "$study" --merge part1 part2 part3 --out merged --no-figures
   cmp whole/study.csv merged/study.csv
+  # Many machines: a task of a cluster each, or GNU parallel.
+  for i in 1 2 3; do
+    FEELER_STUDY=$study FEELER_STUDY_OUT=cluster SLURM_ARRAY_TASK_ID=$i SLURM_ARRAY_TASK_COUNT=3 bash "$here/../../bench/study/study.slurm" $choose
+  done
+  "$study" --merge cluster/part* --out merged --no-figures
+  cmp whole/study.csv merged/study.csv
+  if command -v parallel >/dev/null; then
+    parallel --will-cite "$study" $choose --shard {}/3 --out beside/part{} ::: 1 2 3
+    "$study" --merge beside/part* --out merged --no-figures
+    cmp whole/study.csv merged/study.csv
+  else
+    echo 'study_test: GNU parallel is not here; its line is not tested'
+  fi
+
   rm part2/study.csv
   refuses 'is not there' --merge part1 part2 part3 --out merged
   refuses 'is in none of the folders' --merge part1 part3 --out merged

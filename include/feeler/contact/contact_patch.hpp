@@ -76,6 +76,7 @@ class ContactPatch {
     rows.clear();
     is_filler_ = false;
     surface_.stand_on(triangle);
+    using std::abs;
     normal_ = closest.normal;
     near_.clear();
     triangle_.set(corners, normal_);
@@ -87,7 +88,7 @@ class ContactPatch {
       if (near_.size() > 1) add_edges(rows);
       if (tool_.face_count() > 0 && near_.size() > 2) add_corners_on_faces(rows);
     }
-    const Scalar close_enough = closest.distance + std::abs(closest.distance) / 1000 + seam_ + rounding_of(closest.distance);
+    const Scalar close_enough = closest.distance + abs(closest.distance) / 1000 + seam_ + rounding_of(closest.distance);
     const bool is_met = std::any_of(rows.begin(), rows.end(), [&](const Row& row) { return row.gap <= close_enough; });
     // Overlapping shapes have no closest points: the deepest vertex may lie beside the triangle, where nothing holds it.
     if (is_met || (closest.is_touching && closest.distance < -seam_ && !rows.empty())) return true;
@@ -112,10 +113,11 @@ class ContactPatch {
   /// than `gap` [m]: it holds that vertex. Some are visited more than once.
   template <class Visit>
   void visit_continuations(Scalar gap, const Visit& visit) const noexcept {
+    using std::abs;
     if (!triangle_.has_face()) return;
     for (const int i : near_) {
       const Vector vertex = tool_.vertex(i);
-      if (std::abs(gap_above_face(vertex)) > gap) continue;
+      if (abs(gap_above_face(vertex)) > gap) continue;
       const bool is_inside = triangle_.room_inside(0, vertex) >= -seam_ && triangle_.room_inside(1, vertex) >= -seam_ && triangle_.room_inside(2, vertex) >= -seam_;
       if (is_inside) continue;
       const int under = surface_.triangle_under(vertex, triangle_.corner(0));
@@ -142,13 +144,14 @@ class ContactPatch {
   }
 
  private:
-  static constexpr Scalar least_cosine = PatchTriangle<Scalar>::least_cosine, plane_tolerance = SurfaceAround<Scalar, MeshScalar>::tolerance;
+  inline static const Scalar least_cosine = PatchTriangle<Scalar>::least_cosine, plane_tolerance = SurfaceAround<Scalar, MeshScalar>::tolerance;
 
   static std::size_t index(int i) noexcept { return std::size_t(i); }
 
   /// What a distance may fall short of the truth by [m]: the direction between points so near is rounded, which shows at the ends of a long triangle.
   Scalar rounding_of(Scalar distance) const noexcept {
-    return 16 * std::numeric_limits<Scalar>::epsilon() * triangle_.squared_size() / (std::max)(std::abs(distance), band_ / 1000);
+    using std::abs;
+    return 16 * std::numeric_limits<Scalar>::epsilon() * triangle_.squared_size() / (std::max)(abs(distance), band_ / 1000);
   }
 
   /// The tool vertices in the band, from the lowest along edges: below any height a convex tool hangs together.
@@ -177,9 +180,10 @@ class ContactPatch {
   }
   template <class Visit>
   void visit_vertex_on_face(int tool_vertex, const Visit& visit) const noexcept {
+    using std::abs;
     const Vector vertex = tool_.vertex(tool_vertex);
     const Scalar gap = gap_above_face(vertex);
-    if (std::abs(gap) > largest_gap_) return;
+    if (abs(gap) > largest_gap_) return;
     Scalar room = std::numeric_limits<Scalar>::infinity();
     for (int k = 0; k < 3; ++k) {
       const Scalar inside = triangle_.room_inside(k, vertex);
@@ -202,7 +206,7 @@ class ContactPatch {
   FEELER_FLATTEN
   void add_concave_face(const ClosestPoints<Scalar>& closest, Rows& rows) noexcept {
     if (!triangle_.has_face() || rows.full() || closest.distance > 4 * band_) return;
-    for (const Scalar side : {Scalar(1), Scalar(-1)}) {
+    for (const Scalar& side : {Scalar(1), Scalar(-1)}) {
       const Vector normal = side * triangle_.face_normal();
       const Vector vertex = tool_.vertex(tool_.support(Vector(-normal)));
       const Scalar gap = maker_.on_surface(normal.dot(vertex - triangle_.corner(0)));
@@ -239,6 +243,7 @@ class ContactPatch {
 
   FEELER_FLATTEN
   void add_corners_on_face(const ToolFace<Scalar>& face, Rows& rows) noexcept {
+    using std::abs;
     const Vector outward = face.normal;
     if (-outward.dot(normal_) < least_cosine) return;
     const auto& loop = face.vertices;
@@ -246,7 +251,7 @@ class ContactPatch {
       if (surface_.is_inside_wall(k)) continue;
       const Vector corner = triangle_.corner(k);
       const Scalar gap = maker_.on_surface(outward.dot(corner - tool_.vertex(loop[0])));
-      if (std::abs(gap) > largest_gap_) continue;
+      if (abs(gap) > largest_gap_) continue;
       Scalar room = std::numeric_limits<Scalar>::infinity();
       for (std::size_t i = 0; i < loop.size() && room >= -seam_; ++i) {
         const Vector start = tool_.vertex(loop[i]), edge = tool_.vertex(loop[(i + 1) % loop.size()]) - start;
@@ -285,6 +290,8 @@ class ContactPatch {
   }
 
   void add_edge_pair(const Vector& tool_start, const Vector& tool, const ObjectEdge& object, Rows& rows) noexcept {
+    using std::abs;
+    using std::sqrt;
     const Vector& u = object.direction;
     const Vector cross = tool.cross(u);
     const Scalar tool_squared = tool.squaredNorm(), cross_squared = cross.squaredNorm();
@@ -302,13 +309,13 @@ class ContactPatch {
     if (!(part_of_tool >= Scalar(0) && part_of_tool <= Scalar(1))) return;
     const Scalar beyond = (std::max)(-along_object, along_object - object.length);
     if (!(beyond <= band_)) return;
-    const Vector normal = cross / (along_normal < Scalar(0) ? -std::sqrt(cross_squared) : std::sqrt(cross_squared));
+    const Vector normal = cross / (along_normal < Scalar(0) ? -sqrt(cross_squared) : sqrt(cross_squared));
     const Scalar gap = maker_.on_surface(normal.dot(between));
-    if (std::abs(gap) > largest_gap_ || !surface_.is_clear_of_neighbour_across(object.number, normal)) return;
+    if (abs(gap) > largest_gap_ || !surface_.is_clear_of_neighbour_across(object.number, normal)) return;
     // As beyond a valley.
     if (beyond > Scalar(0) && !surface_.rises_beyond(along_object < Scalar(0) ? object.number : (object.number + 1) % 3,
                                                      along_object < Scalar(0) ? Vector(-u) : u, normal)) return;
-    const Scalar tool_length = std::sqrt(tool_squared);
+    const Scalar tool_length = sqrt(tool_squared);
     const Scalar room = (std::min)({(std::max)(-beyond, Scalar(0)), part_of_tool * tool_length, (1 - part_of_tool) * tool_length});
     rows.push_back(maker_.row_of_edges(normal, Vector(tool_start + part_of_tool * tool), gap, room, u, Vector(tool / tool_length)));
   }
@@ -316,20 +323,21 @@ class ContactPatch {
   /// Edges in parallel touch along an interval; its ends hold the tool.
   FEELER_FLATTEN
   void add_parallel_edges(const Vector& tool_start, const Vector& tool, const ObjectEdge& edge, Rows& rows) noexcept {
+    using std::abs;
     const Vector &start = edge.start, &object = edge.span;
     const Scalar length_squared = tool.squaredNorm();
     const Scalar first = object.dot(tool) > Scalar(0) ? tool.dot(start - tool_start) : tool.dot(start + object - tool_start);
-    const Scalar extent = std::abs(object.dot(tool));
+    const Scalar extent = abs(object.dot(tool));
     const Scalar from = (std::max)(Scalar(0), first / length_squared);
     const Scalar to = (std::min)(Scalar(1), (first + extent) / length_squared);
     if (!(from < to) || !surface_.is_clear_of_neighbour_across(edge.number, normal_)) return;
-    for (const Scalar t : {from, to}) {
+    for (const Scalar& t : {from, to}) {
       const Vector on_tool = tool_start + t * tool;
       const Scalar along = object.dot(on_tool - start) / object.squaredNorm();
       const Vector between = on_tool - start - along * object;
       const Scalar height = normal_.dot(between);
       // Far apart across the normal they only look parallel: no contact there.
-      if (std::abs(maker_.on_surface(height)) > largest_gap_ || (between - height * normal_).norm() > std::abs(height) + seam_) continue;
+      if (abs(maker_.on_surface(height)) > largest_gap_ || (between - height * normal_).norm() > abs(height) + seam_) continue;
       if constexpr (SweptTool<Tool>) {
         const Scalar distance = between.norm();
         rows.push_back(maker_.row_of_point_and_edge(Vector(between / distance), on_tool, maker_.on_surface(distance), object.normalized()));

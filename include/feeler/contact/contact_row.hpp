@@ -51,9 +51,10 @@ struct ContactRow {
   /// Whether another row asks the same of a step, but for rounding; how the two bend may differ. Triangles of one plane or with one edge
   /// have such rows, and so have pieces of a tool with one corner.
   bool repeats(const ContactRow& other) const noexcept {
-    constexpr Scalar angle = 4096 * std::numeric_limits<Scalar>::epsilon();
+    using std::abs;
+    const Scalar angle = 4096 * std::numeric_limits<Scalar>::epsilon();
     const Scalar squared_angle = angle * angle, squared_length = squared_angle * arm.squaredNorm();
-    if (!(std::abs(normal.x() - other.normal.x()) <= angle)) return false;  // most are told apart by one number
+    if (!(abs(normal.x() - other.normal.x()) <= angle)) return false;  // most are told apart by one number
     return (gap - other.gap) * (gap - other.gap) <= squared_length && is_assumed == other.is_assumed &&
            (normal - other.normal).squaredNorm() <= squared_angle && (arm - other.arm).cross(normal).squaredNorm() <= squared_length;
   }

@@ -44,7 +44,7 @@ void take_outer_rows(const EachRow& each_row, const typename Row::Scalar& rise, 
     Row lowest{};
   };
   static_assert(most_outer_rows == 16);
-  constexpr Scalar cosine = Scalar(0.923879532511286756128L), sine = Scalar(0.382683432365089771728L);  // of a sixteenth of a turn
+  const Scalar cosine = Scalar(0.923879532511286756128L), sine = Scalar(0.382683432365089771728L);  // of a sixteenth of a turn
   FixedVector<Side, most_outer_rows + 1> sides;
   sides.push_back({});
   Vector tilt = few[0].normal.unitOrthogonal() * (rise / extent), across = few[0].normal.cross(tilt);

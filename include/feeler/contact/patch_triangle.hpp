@@ -22,13 +22,14 @@ class PatchTriangle {
   using Vector = Vector3<Scalar>;
 
   /// Features whose own normal differs more from the contact's belong to another part of the surface.
-  static constexpr Scalar least_cosine = Scalar(9) / 10;
+  inline static const Scalar least_cosine = Scalar(9) / 10;
 
   /// Face and side of a triangle; its edges are not known yet.
   /// @param corners  a corner a column [m]
   /// @param normal   unit, of the plane that parts it and the tool, to the tool
   void set(const Matrix3<Scalar>& corners, const Vector& normal) noexcept {
-    constexpr Scalar least_sine = 64 * std::numeric_limits<Scalar>::epsilon();
+    using std::sqrt;
+    const Scalar least_sine = 64 * std::numeric_limits<Scalar>::epsilon();
     corners_ = corners;
     const Vector edge0 = corners_.col(1) - corners_.col(0);
     const Vector edge1 = corners_.col(2) - corners_.col(0);
@@ -37,7 +38,7 @@ class PatchTriangle {
     has_face_ = squared_area > least_sine * least_sine * edge0.squaredNorm() * edge1.squaredNorm();
     faces_tool_ = false;
     if (has_face_) {
-      face_normal_ = cross / std::sqrt(squared_area);
+      face_normal_ = cross / sqrt(squared_area);
       const Scalar cosine = face_normal_.dot(normal);
       side_ = cosine < Scalar(0) ? Scalar(-1) : Scalar(1);
       faces_tool_ = side_ * cosine >= least_cosine;

@@ -38,7 +38,7 @@ class SurfaceAround {
   using Vector = Vector3<Scalar>;
 
   /// Sine by which a direction may leave a cone, or a plane another one.
-  static constexpr Scalar tolerance = Scalar(1e-6);
+  inline static const Scalar tolerance = Scalar(1e-6);
 
   /// @param world_from_tool  axes of the tool, kept by reference
   /// @param seam             a point so little beside a face counts as over it [m]

@@ -105,7 +105,7 @@ class OutermostAtRim {
       Scalar first(0), last(1);
       if (!clip(start, end, first, last)) continue;
       const bool is_first = is_preferred(triangle);
-      for (const Scalar t : {first, last}) take(Point(start + t * (end - start)), triangle, is_first);
+      for (const Scalar& t : {first, last}) take(Point(start + t * (end - start)), triangle, is_first);
     }
   }
 
@@ -126,7 +126,8 @@ class OutermostAtRim {
   }
 
   void take(const Point& point, int triangle, bool is_preferred) noexcept {
-    const Scalar tie = (std::abs(point.x()) + std::abs(point.y())) / 1000000;
+    using std::abs;
+    const Scalar tie = (abs(point.x()) + abs(point.y())) / 1000000;
     for (std::size_t i = 0; i < directions; ++i) {
       constexpr std::array<int, directions> x{1, 1, 0, -1, -1, -1, 0, 1}, y{0, 1, 1, 1, 0, -1, -1, -1};
       const Scalar distance = Scalar(x[i]) * point.x() + Scalar(y[i]) * point.y();

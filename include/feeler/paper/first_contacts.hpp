@@ -31,6 +31,7 @@ struct FirstContact {
 /// Contact of one tool vertex with the inside of a triangle.
 template <class Scalar>
 FirstContact<Scalar> vertex_on_triangle(int tool_vertex, int triangle, const Vector3<Scalar>& normal_world) noexcept {
+  using std::abs;
   FirstContact<Scalar> contact{triangle, normal_world, {}};
   contact.features.size = 3;
   contact.features.tool_vertices.fill(short(tool_vertex));
@@ -66,7 +67,7 @@ FirstContact<typename Tool::Scalar> first_vertex_hit(const Tool& tool, const Tri
       const Scalar flat = rounding * extent * normal.norm();
       // From the side it starts on to the other; a start in the plane, to rounding, counts for both.
       const Scalar ahead = speed > Scalar(0) ? height : -height;
-      if (speed == Scalar(0) || ahead < -flat || ahead > earliest * std::abs(speed) + flat) return true;
+      if (speed == Scalar(0) || ahead < -flat || ahead > earliest * abs(speed) + flat) return true;
       const Scalar time = std::clamp(height / speed, Scalar(0), earliest);
       const Scalar outside = -extent * flat;
       for (int k = 0; k < 3; ++k) {

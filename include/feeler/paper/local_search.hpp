@@ -139,6 +139,7 @@ class LocalSearch {
   }
 
   void gather_planes(RegionCandidates& region) noexcept {
+    using std::abs;
     planes_.clear();
     constexpr Scalar parallel = Scalar(1e-9);
     for (int i = 0; i < ring_.size(); ++i) {
@@ -147,7 +148,7 @@ class LocalSearch {
       const Vector point = corner(ring_[i], 0);
       auto same = std::find_if(planes_.begin(), planes_.end(), [&](const Plane& plane) {
         return (plane.normal - normal).squaredNorm() < parallel * parallel &&
-               std::abs(plane.normal.dot(point - plane.point)) < Scalar(1e-9);
+               abs(plane.normal.dot(point - plane.point)) < Scalar(1e-9);
       });
       if (same == planes_.end()) {
         if (!planes_.push_back({ring_[i], normal, point, 0})) {
@@ -286,6 +287,7 @@ class LocalSearch {
   }
 
   void add_tips(RegionCandidates& region) noexcept {
+    using std::abs;
     FixedVector<int, ring_capacity> known;
     for (int i = 0; i < ring_.size(); ++i) {
       for (int k = 0; k < 3; ++k) {
@@ -297,7 +299,7 @@ class LocalSearch {
           const auto face = tool_.face(f);
           if (std::none_of(face.vertices.begin(), face.vertices.end(), [&](int v) { return near_.contains(v); })) continue;
           const Scalar height = (axes_ * face.normal).dot(corner(ring_[i], k) - tool_vertex(face.vertices[0]));
-          if (std::abs(height) > reach_) continue;
+          if (abs(height) > reach_) continue;
           Candidate candidate;
           candidate.constraints.push_back({FeaturePair::face_vertex, f, ring_[i], k, is_behind_});
           add(candidate, region);

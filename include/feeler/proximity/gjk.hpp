@@ -88,7 +88,7 @@ template <ConvexTool Tool, class Object>
   using Scalar = typename Tool::Scalar;
   using std::sqrt;
   constexpr int maximum_iterations = 32;
-  constexpr Scalar epsilon = std::numeric_limits<Scalar>::epsilon();
+  const Scalar epsilon = std::numeric_limits<Scalar>::epsilon();
 
   GjkResult<Scalar> answer;
   Simplex<Scalar>& simplex = answer.simplex;
@@ -226,7 +226,7 @@ ClosestPoints<typename Tool::Scalar> gjk(const Tool& tool, const Matrix3<typenam
     result.tool_point += simplex.weights[i] * tool.vertex(simplex.tool_vertices[i]);
     result.triangle_point += simplex.weights[i] * triangle.col(simplex.corners[i]);
   }
-  constexpr Scalar large = Scalar(16);  // times the tool
+  const Scalar large = Scalar(16);  // times the tool
   if (!result.is_touching && answer.upper_bound - result.distance > Scalar(1e-9) * answer.upper_bound &&
       triangle.template lpNorm<Eigen::Infinity>() > large * answer.size)
     return detail::closest_to_large(tool, triangle, answer, touching_distance, result);

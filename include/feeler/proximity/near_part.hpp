@@ -30,7 +30,7 @@ FixedVector<PartCorner<typename Tool::Scalar>, 9> near_part(const Tool& tool, co
   Part part;
   for (int k = 0; k < 3; ++k) part.push_back({triangle.col(k), 1U << unsigned(k)});
   for (int axis = 0; axis < 3; ++axis) {
-    for (const Scalar sign : {Scalar(1), Scalar(-1)}) {
+    for (const Scalar& sign : {Scalar(1), Scalar(-1)}) {
       const Vector3<Scalar> outward = sign * Vector3<Scalar>::Unit(axis);
       const Scalar limit = highest_along(tool, outward) + distance;
       const auto beyond = [&](const PartCorner<Scalar>& corner) { return sign * corner.point[axis] - limit; };

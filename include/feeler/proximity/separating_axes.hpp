@@ -47,7 +47,7 @@ SeparatingAxis<typename Tool::Scalar> best_separating_axis(const Tool& tool,
                                                            typename Tool::Scalar accepted = 0) noexcept {
   using Scalar = typename Tool::Scalar;
   using std::sqrt;
-  constexpr Scalar epsilon = std::numeric_limits<Scalar>::epsilon();
+  const Scalar epsilon = std::numeric_limits<Scalar>::epsilon();
   SeparatingAxis<Scalar> best;
   const Scalar size = triangle.cwiseAbs().maxCoeff() + tool.vertex(0).cwiseAbs().maxCoeff();
   const Scalar enough = -(std::max)(accepted, 4 * epsilon * size);

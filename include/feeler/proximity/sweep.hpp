@@ -229,7 +229,7 @@ class Sweep {
       if (parted >= end_.time) return true;
       if (parted < Scalar(0)) return false;
       if (work < limit && walls_->is_asked_first(mesh, wall, moving, start_)) {
-        for (const Scalar time : {parted, end_.time}) {
+        for (const Scalar& time : {parted, end_.time}) {
           const int triangle = walls_->triangle_below(mesh, wall, moving, start_, time);
           if (triangle < 0 || is_known(triangle)) continue;
           const int blockers = result_.blockers.size();

@@ -109,7 +109,7 @@ class WitnessSearch {
       const Vector along = vertex(tool_.edge(e).end) - vertex(tool_.edge(e).start);
       for (int k = 0; k < 3; ++k) {
         const Vector normal = along.cross(Vector::Unit(k)).normalized();
-        for (const Scalar sign : {Scalar(1), Scalar(-1)}) {
+        for (const Scalar& sign : {Scalar(1), Scalar(-1)}) {
           Scalar offset = -std::numeric_limits<Scalar>::infinity();
           for (const Vector& v : vertices_) offset = (std::max)(offset, sign * normal.dot(v));
           planes_.push_back({sign * normal, offset});
@@ -168,11 +168,12 @@ class WitnessSearch {
   }
 
   void look_at(int triangle, const Matrix3<Scalar>& corners, Witnesses& witnesses) noexcept {
+    using std::abs;
     const Vector normal = triangle_normal<Scalar>(corners.col(0), corners.col(1), corners.col(2));
     const Feature face{FeatureKind::face, surface_.face_of_triangle(triangle)};
     for (int i = 0; i < tool_.vertex_count(); ++i) {
       const Vector& v = vertex(i);
-      if (std::abs(normal.dot(v - corners.col(0))) > tolerance_) continue;
+      if (abs(normal.dot(v - corners.col(0))) > tolerance_) continue;
       const Vector closest = closest_on_triangle<Scalar>(v, corners, normal);
       if (is_within(v, closest)) witnesses.add({{FeatureKind::vertex, i}, face, v, closest});
     }
@@ -192,6 +193,7 @@ class WitnessSearch {
   }
 
   void look_at_vertex(const Feature& feature, Witnesses& witnesses) noexcept {
+    using std::abs;
     const Vector point = local(surface_.vertex(feature.index).point);
     if ((point.array() > high_.array()).any() || (point.array() < low_.array()).any()) return;
     for (int i = 0; i < tool_.vertex_count(); ++i)
@@ -205,7 +207,7 @@ class WitnessSearch {
       const auto& loop = face.vertices;
       const Vector& normal = face_normal(f);
       const Scalar height = normal.dot(point - vertex(loop[0]));
-      if (std::abs(height) > tolerance_) continue;
+      if (abs(height) > tolerance_) continue;
       bool is_over = true;
       for (std::size_t i = 0; is_over && i < loop.size(); ++i) {
         const Vector& start = vertex(loop[i]);

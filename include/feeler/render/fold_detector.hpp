@@ -36,7 +36,7 @@ class FoldDetector {
  public:
   using Scalar = ScalarType;
   /// The tool may go so many times as far as the device without a fold: past a corner that it turns about it is faster than the hand.
-  static constexpr Scalar most_gain = Scalar(4);
+  inline static const Scalar most_gain = Scalar(4);
 
   /// @param least_jump  shorter ones are not told [m]; refused where it is negative or not finite
   explicit FoldDetector(const Settings<Scalar>& settings, Scalar least_jump = Scalar(1e-4))

@@ -132,7 +132,7 @@ class MotionCertificate {
   };
   static constexpr int rest_after_failure = 64;
   /// Of half a turn the poses at its ends do not tell which way round it went [rad].
-  static constexpr Scalar longest_turn = Scalar(3);
+  inline static const Scalar longest_turn = Scalar(3);
 
   void begin(const Pose<Scalar>& from, const Twist<Scalar>& motion, Scalar reach) noexcept {
     from_ = from;

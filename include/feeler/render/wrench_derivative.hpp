@@ -217,7 +217,7 @@ noexcept {
     curvature += share.force * curvature_of(problem.row(share.row));
     Vector6<Scalar> rest = share.gradient - across * share.gradient;
     rest -= across * rest;  // once more, against rounding
-    constexpr Scalar dependent = Scalar(1e-6);
+    const Scalar dependent = Scalar(1e-6);
     if (rest.norm() > dependent * share.gradient.norm())
       across += rest.normalized() * rest.normalized().transpose();
   }

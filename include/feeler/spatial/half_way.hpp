@@ -16,7 +16,7 @@ namespace feeler {
 template <class Scalar>
 std::optional<Pose<Scalar>> half_way_of_long_turn(const Pose<Scalar>& from, const Pose<Scalar>& to) noexcept {
   using std::abs;
-  constexpr Scalar cosine_of_half = Scalar(0.0708);  // of 2.9999 rad
+  const Scalar cosine_of_half = Scalar(0.0708);  // of 2.9999 rad
   const Scalar cosine = from.rotation.dot(to.rotation);
   if (abs(cosine) > cosine_of_half) return std::nullopt;
   Pose<Scalar> middle;

@@ -277,7 +277,7 @@ class ConvexPolytope {
     }
     // Of shapes as fine as their rounding a face may have no outline, and edges are missing. Where edges are much shorter than the shape, rounding
     // hides on which side it is higher.
-    constexpr Scalar shortest = Scalar(1) / 300;  // edge, to the largest coordinate
+    const Scalar shortest = Scalar(1) / 300;  // edge, to the largest coordinate
     Scalar size(0);
     for (int i = 0; i < vertex_count(); ++i) size = (std::max)(size, vertex(i).cwiseAbs().maxCoeff());
     const auto is_too_short = [&](const ToolEdge& edge) { return !((vertex(edge.end) - vertex(edge.start)).norm() > shortest * size); };

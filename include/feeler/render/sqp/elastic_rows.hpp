@@ -142,7 +142,7 @@ class ElasticRows {
   /// Relaxes rows, those that are parallel to one of them, and those that a step of zero leaves short.
   template <class List>
   bool relax_like(const QpProblem<Scalar>& problem, const List& list) noexcept {
-    constexpr Scalar parallel = Scalar(1) - Scalar(1e-6);
+    const Scalar parallel = Scalar(1) - Scalar(1e-6);
     const Scalar missing = relaxation_at_rest() / 100;
     bool joins = false;
     for (int k = 0; k < size_; ++k) {

@@ -228,8 +228,8 @@ class StepProblem {
     }
   }
 
-  static constexpr Scalar price_per_force = Scalar(24);
-  static constexpr Scalar picometre = Scalar(1e-12);  // some tolerances of a solver
+  inline static const Scalar price_per_force = Scalar(24);
+  inline static const Scalar picometre = Scalar(1e-12);  // some tolerances of a solver
 
   /// H = ∇²f − Σ λₖ ∇²sₖ with the forces of the projection, made positive definite where it matters least.
   ///
@@ -263,14 +263,15 @@ class StepProblem {
       pull += problem_.bounds[index(active.row)] * row;
     }
     for (const Regularisation& regular : regularisations) {
+      const Scalar weight = Scalar(regular.weight), share = Scalar(regular.share);
       const auto entry = [&](int i, int j) {
-        const Scalar sum = regular.share * lagrangian(i, j) + regular.weight * across(i, j);
-        return i == j ? sum + (Scalar(1) - regular.share) * base[i] : sum;
+        const Scalar sum = share * lagrangian(i, j) + weight * across(i, j);
+        return i == j ? sum + (Scalar(1) - share) * base[i] : sum;
       };
       set_hessian(entry);
       if (!is_positive_definite(problem_.hessian, floor)) continue;
-      problem_.gradient -= regular.weight * pull;
-      is_newton_ = regular.share == Scalar(1);
+      problem_.gradient -= weight * pull;
+      is_newton_ = share == Scalar(1);
       return;
     }
     set_hessian(diagonal_of(base));
@@ -300,10 +301,10 @@ class StepProblem {
   /// Stiffness across the active rows, and share of the Lagrangian in what is left to the metric; the first that will do is taken, where the
   /// Lagrangian alone does not.
   struct Regularisation {
-    Scalar weight, share;
+    double weight, share;  // a scalar may not be constexpr
   };
   static constexpr std::array<Regularisation, 7> regularisations{
-      {{8, 1}, {64, 1}, {1024, 1}, {64, Scalar(15) / 16}, {64, Scalar(3) / 4}, {64, Scalar(1) / 2}, {64, Scalar(1) / 4}}};
+      {{8, 1}, {64, 1}, {1024, 1}, {64, 15.0 / 16}, {64, 3.0 / 4}, {64, 1.0 / 2}, {64, 1.0 / 4}}};
 
   Solver solver_;
   QpProblem<Scalar> problem_;
