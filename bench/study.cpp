@@ -16,6 +16,7 @@
 #include "study/proof.hpp"
 #include "study/sweeps.hpp"
 #include "study/table.hpp"
+#include "study/tables.hpp"
 
 namespace {
 
@@ -29,7 +30,7 @@ struct Options {
   int shard = 1, shards = 1;
   std::vector<std::string> merged;
   int proofs = 0;
-  bool is_listed = false, draws = true, draws_only = false;
+  bool is_listed = false, draws = true, draws_only = false, prints_tables = false;
 };
 
 /// "2/8" as numbers.
@@ -128,13 +129,15 @@ int main(int argc, char** argv) {
   app.add_option("--merge", options.merged, "folders of shards to make one of, in --out; nothing is measured");
   app.add_flag("!--no-figures", options.draws, "draw nothing");
   app.add_flag("--figures", options.draws_only, "draw the figures of --out again, and measure nothing");
+  app.add_flag("--tables", options.prints_tables, "print what --out holds as tables in Markdown, and measure nothing");
   app.add_option("--prove", options.proofs, "test the truth itself on so many random cells, and measure nothing")->check(CLI::NonNegativeNumber);
   return feeler::bench::run_with_options(app, argc, argv, [&] {
     read_shard(shard, options);
     if (options.proofs > 0) return prove(options);
     if (!options.merged.empty()) merge({options.merged.begin(), options.merged.end()}, options.out);
-    if (options.draws_only || !options.merged.empty()) {
-      if (options.draws_only || options.draws) draw(options.out);
+    if (options.prints_tables) std::fputs(markdown_tables(options.out).c_str(), stdout);
+    if (options.prints_tables || options.draws_only || !options.merged.empty()) {
+      if (options.draws_only || (options.draws && !options.prints_tables)) draw(options.out);
       return 0;
     }
     return study(options);

@@ -10,37 +10,12 @@
 #include <vector>
 
 #include "experiments/plots.hpp"
-#include "study/cell.hpp"
-#include "study/table.hpp"
+#include "study/rows.hpp"
 
 namespace feeler::study {
 namespace {
 
 namespace fs = std::filesystem;
-
-double number(const Row& row, const char* name) {
-  const auto found = row.find(name);
-  return found == row.end() || found->second.empty() ? 0 : std::stod(found->second);
-}
-const std::string& text(const Row& row, const char* name) { return row.at(name); }
-bool is_measured(const Row& row) { return text(row, "refused").empty() && number(row, "samples") > 0; }
-
-/// What is chosen, by the columns of the file, with what is chosen by default.
-struct Choice {
-  const char *column, *label;
-  double standard;
-};
-const std::array<Choice, 6> choices{{{"margin_m", "margin  [m]", Cell().margin},
-                                     {"budget", "work budget", double(Cell().budget)},
-                                     {"iterations", "linearisations a tick, at most", double(Cell().iterations)},
-                                     {"rate_hz", "rate  [Hz]", double(Cell().rate)},
-                                     {"scale", "scale of the scene", Cell().scale},
-                                     {"offset_m", "distance of the scene from the origin  [m]", Cell().offset}}};
-
-/// Whether all is chosen by default, but for one column.
-bool is_standard_but_for(const Row& row, const std::string& column) {
-  return std::all_of(choices.begin(), choices.end(), [&](const Choice& choice) { return choice.column == column || number(row, choice.column) == choice.standard; });
-}
 
 std::string scene_family(const std::string& scene) { return scene.substr(0, scene.find('_')); }
 std::string legible(std::string name) {
@@ -107,10 +82,7 @@ bool draw_fronts(const fs::path& folder, const std::vector<Row>& rows, const std
   std::map<std::string, std::vector<std::pair<double, double>>> by_scene, standard;
   for (const Row& row : rows) {
     if (!is_measured(row) || text(row, "rendering") != "double" || number(row, "scale") != 1 || number(row, "offset_m") != 0 || number(row, "rate_hz") != Cell().rate) continue;
-    const auto same = [&](const Row& other) { return text(other, "cell") == text(row, "cell"); };
-    const auto time = std::find_if(times.begin(), times.end(), same);
-    if (time == times.end()) continue;
-    const std::pair point(std::max(number(*time, "time_p99_us"), 0.1), std::max(number(row, "error_p99_m"), 1e-9));
+    const std::pair point(std::max(number(times_of(row, times), "time_p99_us"), 0.1), std::max(number(row, "error_p99_m"), 1e-9));
     by_scene[text(row, "scene")].push_back(point);
     if (is_standard_but_for(row, "")) standard[text(row, "scene")] = {point};
   }

@@ -1,0 +1,45 @@
+// Rows of the study's files, and what is asked of them for tables and figures.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <string>
+#include <vector>
+
+#include "study/cell.hpp"
+#include "study/table.hpp"
+
+namespace feeler::study {
+
+inline double number(const Row& row, const char* name) {
+  const auto found = row.find(name);
+  return found == row.end() || found->second.empty() ? 0 : std::stod(found->second);
+}
+inline const std::string& text(const Row& row, const char* name) { return row.at(name); }
+inline bool is_measured(const Row& row) { return text(row, "refused").empty() && number(row, "samples") > 0; }
+
+/// What is chosen, by the columns of the file, with what is chosen by default.
+struct Choice {
+  const char *column, *label;
+  double standard;
+};
+inline const std::array<Choice, 6> choices{{{"margin_m", "margin  [m]", Cell().margin},
+                                            {"budget", "work budget", double(Cell().budget)},
+                                            {"iterations", "linearisations a tick, at most", double(Cell().iterations)},
+                                            {"rate_hz", "rate  [Hz]", double(Cell().rate)},
+                                            {"scale", "scale of the scene", Cell().scale},
+                                            {"offset_m", "distance of the scene from the origin  [m]", Cell().offset}}};
+
+/// Whether all is chosen by default, but for one column.
+inline bool is_standard_but_for(const Row& row, const std::string& column) {
+  return std::all_of(choices.begin(), choices.end(), [&](const Choice& choice) { return choice.column == column || number(row, choice.column) == choice.standard; });
+}
+
+/// The row of times of a cell; a row of nothing where it is missing.
+inline const Row& times_of(const Row& row, const std::vector<Row>& times) {
+  static const Row none;
+  const auto found = std::find_if(times.begin(), times.end(), [&](const Row& other) { return text(other, "cell") == text(row, "cell"); });
+  return found == times.end() ? none : *found;
+}
+
+}  // namespace feeler::study
