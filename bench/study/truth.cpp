@@ -295,19 +295,59 @@ bool Truth::newton(const Pose<double>& hand, NearestPose& answer, double distanc
   return answer.last_step < Real("1e-28");
 }
 
-bool Truth::is_minimum(const Pose<double>& hand, NearestPose& answer, double distance) const {
-  for (const Real& multiplier : answer.multipliers)
-    if (multiplier < -Real("1e-24")) return false;
-  for (const Near& near : pairs_near(answer.pose, 1.01 * distance + 1e-13))
-    if (gap(near.pair, answer.pose).value < distance - rounding_) return false;
-  // What the pairs leave free: the null space of their gradients.
-  Eigen::MatrixXd rows = Eigen::MatrixXd::Zero(std::max<Eigen::Index>(Eigen::Index(answer.active.size()), 1), 6);
+/// Newton's method on the pairs at hand, and then with those too that are as near but for rounding, as where faces lie flush, as far as they push and do not pull.
+bool Truth::refine(const Pose<double>& hand, NearestPose& answer, double distance) const {
+  if (!newton(hand, answer, distance, 12) || !is_stationary(answer, distance)) return false;
+  while (answer.active.size() < 6) {
+    std::vector<std::pair<Real, FeaturePair>> tight;
+    for (const Near& near : pairs_near(answer.pose, distance + 1e-13)) {
+      const Real room = gap(near.pair, answer.pose).value - distance;
+      if (room < rounding_ && std::find(answer.active.begin(), answer.active.end(), near.pair) == answer.active.end()) tight.emplace_back(room, near.pair);
+    }
+    std::sort(tight.begin(), tight.end());
+    if ((tight.empty() || tight.front().first > -Real("1e-28")) && is_curved(hand, answer)) return true;
+    const auto can_be_held = [&](const auto& pair) {
+      if (!is_independent(pair.second, answer)) return false;
+      NearestPose trial = answer;
+      trial.active.push_back(pair.second);
+      trial.multipliers.emplace_back(0);
+      if (!newton(hand, trial, distance, 12) || !is_stationary(trial, distance)) return false;
+      answer = trial;
+      return true;
+    };
+    if (std::none_of(tight.begin(), tight.end(), can_be_held)) break;
+  }
+  return is_curved(hand, answer);
+}
+
+/// Gradients of what is held, a row each, with turns as lengths.
+Eigen::MatrixXd Truth::held_rows(const NearestPose& answer) const {
+  Eigen::MatrixXd rows(Eigen::Index(answer.active.size()), 6);
   for (std::size_t i = 0; i < answer.active.size(); ++i) {
     const Vector6<Real> gradient = gap(answer.active[i], answer.pose).gradient;
     for (int k = 0; k < 6; ++k) rows(Eigen::Index(i), k) = static_cast<double>(gradient[k]) / (k < 3 ? 1 : radius_);
   }
-  const Eigen::MatrixXd kernel = Eigen::FullPivLU<Eigen::MatrixXd>(rows).kernel();
-  if (int(answer.active.size()) >= 6 || kernel.isZero(0)) return answer.curvature = std::numeric_limits<double>::infinity(), true;
+  return rows;
+}
+
+/// Whether a pair holds in a direction of its own. Triangles of one face, not quite in a plane by rounding, do not.
+bool Truth::is_independent(const FeaturePair& pair, NearestPose answer) const {
+  answer.active.push_back(pair);
+  return Eigen::JacobiSVD<Eigen::MatrixXd>(held_rows(answer)).singularValues().minCoeff() > 1e-6;
+}
+
+/// Whether the pairs that are held push, and no other is nearer.
+bool Truth::is_stationary(const NearestPose& answer, double distance) const {
+  const auto near = pairs_near(answer.pose, distance + 1e-13);
+  return std::all_of(answer.multipliers.begin(), answer.multipliers.end(), [](const Real& multiplier) { return multiplier >= -Real("1e-24"); }) &&
+         std::all_of(near.begin(), near.end(), [&](const Near& one) { return gap(one.pair, answer.pose).value >= distance - rounding_; });
+}
+
+/// The second-order condition, on the null space of the gradients of what is held.
+bool Truth::is_curved(const Pose<double>& hand, NearestPose& answer) const {
+  if (answer.active.size() >= 6) return answer.curvature = std::numeric_limits<double>::infinity(), true;
+  Eigen::MatrixXd kernel = Eigen::MatrixXd::Identity(6, 6);
+  if (!answer.active.empty()) kernel = Eigen::FullPivLU<Eigen::MatrixXd>(held_rows(answer)).kernel();
   Matrix6<double> hessian = lagrangian_hessian(hand, answer).unaryExpr([](const Real& x) { return static_cast<double>(x); });
   for (int k = 3; k < 6; ++k) hessian.row(k) /= radius_, hessian.col(k) /= radius_;
   const Eigen::MatrixXd basis = Eigen::HouseholderQR<Eigen::MatrixXd>(kernel).householderQ() * Eigen::MatrixXd::Identity(6, kernel.cols());
@@ -327,9 +367,9 @@ std::optional<NearestPose> Truth::nearest(const Pose<double>& hand, const Pose<d
   if (!find_active(hand, answer, first)) return {};
   for (double distance = first;; distance = std::max(last, distance / 4)) {
     NearestPose trial = answer;
-    if (!newton(hand, trial, distance, 12) || !is_minimum(hand, trial, distance)) {
+    if (!refine(hand, trial, distance)) {
       trial = answer;
-      if (!find_active(hand, trial, distance) || !newton(hand, trial, distance, 12) || !is_minimum(hand, trial, distance)) return {};
+      if (!find_active(hand, trial, distance) || !refine(hand, trial, distance)) return {};
     }
     answer = trial;
     if (distance <= last) break;

@@ -95,7 +95,11 @@ class Truth {
   Matrix6<Real> lagrangian_hessian(const Pose<double>& hand, const NearestPose& answer) const;
   bool find_active(const Pose<double>& hand, NearestPose& answer, double distance) const;
   bool newton(const Pose<double>& hand, NearestPose& answer, double distance, int steps) const;
-  bool is_minimum(const Pose<double>& hand, NearestPose& answer, double distance) const;
+  bool refine(const Pose<double>& hand, NearestPose& answer, double distance) const;
+  Eigen::MatrixXd held_rows(const NearestPose& answer) const;
+  bool is_independent(const FeaturePair& pair, NearestPose answer) const;
+  bool is_stationary(const NearestPose& answer, double distance) const;
+  bool is_curved(const Pose<double>& hand, NearestPose& answer) const;
 
   std::vector<Piece> pieces_;
   Points<double> vertices_;
