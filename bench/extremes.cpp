@@ -164,7 +164,8 @@ int soak(long ticks) {
     std::printf("%-12s %9ld ticks, converged %.2f %%, drift %.1e m, deepest %g m, memory %+ld kB in the second half, median %.1f µs at first and %.1f µs then\n", name, count,
                 100.0 * double(converged) / double(count), drift, deepest, grown, bench::quantile({times.begin(), tenth}, 0.5), bench::quantile({tenth, times.end()}, 0.5));
     std::fflush(stdout);
-    if (deepest > 0 || drift > 1e-7) result = 1;
+    constexpr long most_growth = 1024;  // [kB]
+    if (deepest > 0 || drift > 1e-7 || grown > most_growth) result = 1;
   }
   return result;
 }

@@ -1,5 +1,6 @@
 // The study of accuracy and speed: every scene with every choice, measured against the rigid problem solved in 50 digits.
 #include <chrono>
+#include <csignal>
 #include <cstdio>
 #include <filesystem>
 #include <stdexcept>
@@ -35,9 +36,8 @@ struct Options {
 
 /// "2/8" as numbers.
 void read_shard(const std::string& text, Options& options) {
-  if (text.empty()) return;
   int end = 0;
-  if (std::sscanf(text.c_str(), "%d/%d%n", &options.shard, &options.shards, &end) != 2 || std::size_t(end) != text.size() || options.shard < 1 || options.shard > options.shards)
+  if (std::sscanf(text.c_str(), "%6d/%6d%n", &options.shard, &options.shards, &end) != 2 || std::size_t(end) != text.size() || options.shard < 1 || options.shard > options.shards)
     throw std::invalid_argument("--shard is " + text + "; give one of so many, such as 2/8.");
 }
 
@@ -85,8 +85,9 @@ int study(const Options& options) {
   const double seconds = options.seconds > 0 ? options.seconds : options.selection.is_quick ? 0.5 : 2;
   Table table(options.out, cells, provenance(seconds, options.seed));
   std::vector<int> todo;
+  int there = 0;
   for (int i = 0; i < int(cells.size()); ++i)
-    if (i % options.shards == options.shard - 1 && !table.has(i)) todo.push_back(i);
+    if (i % options.shards == options.shard - 1) table.has(i) ? void(++there) : todo.push_back(i);
   TruthPaths paths(seconds);
   Progress progress(int(todo.size()));
   for (std::size_t i = 0; i < todo.size(); ++i) {
@@ -96,25 +97,26 @@ int study(const Options& options) {
   }
   progress.end();
   table.sort();
-  std::printf("%s: %zu cells measured, %zu were there\n", (options.out / results_name).c_str(), todo.size(), cells.size() / std::size_t(options.shards) - std::min(cells.size() / std::size_t(options.shards), todo.size()));
+  std::printf("%s: %zu cells measured, %d were there\n", (options.out / results_name).c_str(), todo.size(), there);
   if (options.draws && options.shards == 1) draw(options.out);
   return 0;
 }
 
 /// @return 1 where the truth is not proved
 int prove(const Options& options) {
-  const auto only = options.selection.scenes.empty() ? std::string() : options.selection.scenes.front();
-  const ProofFigures figures = prove_truth(options.proofs, options.seed, only);
+  const ProofFigures figures = prove_truth(options.proofs, options.seed, options.selection.scenes);
   std::printf("cells %d, with a minimum %d, in contact %d\n", figures.asked, figures.found, figures.in_contact);
   std::printf("changed by two more steps of Newton's method: %.2g m at most; last step %.2g m; least curvature %.2g\n", figures.tightened, figures.last_step, figures.least_curvature);
-  std::printf("poses tried that are nearer to the hand: %d; free, by the checker: %d\n", figures.searched, figures.better);
+  std::printf("minima that penetrate, by the checker: %d; poses tried that are nearer to the hand: %d; free: %d\n", figures.deep, figures.searched, figures.better);
   std::printf("scenes with a closed form: %d; off it: %.2g m at most\n", figures.formulas, figures.off_formulas);
-  return figures.tightened < 1e-20 && figures.better == 0 && figures.off_formulas < 1e-20 ? 0 : 1;
+  // Where the search fails there is no truth; that may be rare, and no more.
+  return figures.found * 10 >= figures.asked * 9 && figures.in_contact > 0 && figures.deep == 0 && figures.tightened < 1e-20 && figures.better == 0 && figures.off_formulas < 1e-20 ? 0 : 1;
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
+  std::signal(SIGXFSZ, SIG_IGN);  // a file that may not grow is a sentence, not an end
   Options options;
   std::string shard;
   CLI::App app("feeler-study: what accuracy costs, and what speed: every cell measured against the rigid problem solved in 50 digits", "feeler-study");
@@ -131,9 +133,10 @@ int main(int argc, char** argv) {
   app.add_flag("!--no-figures", options.draws, "draw nothing");
   app.add_flag("--figures", options.draws_only, "draw the figures of --out again, and measure nothing");
   app.add_flag("--tables", options.prints_tables, "print what --out holds as tables in Markdown, and measure nothing");
-  app.add_option("--prove", options.proofs, "test the truth itself on so many random cells, and measure nothing")->check(CLI::NonNegativeNumber);
+  app.add_option("--prove", options.proofs, "test the truth itself on so many random cells, and measure nothing")->check(CLI::PositiveNumber);
   return feeler::bench::run_with_options(app, argc, argv, [&] {
-    read_shard(shard, options);
+    if (app.count("--shard") > 0) read_shard(shard, options);
+    if (!(options.seconds >= 0)) throw std::invalid_argument("--seconds is not a number; give some, such as 2.");
     if (options.proofs > 0) return prove(options);
     if (!options.merged.empty()) merge({options.merged.begin(), options.merged.end()}, options.out);
     if (options.prints_tables) std::fputs(markdown_tables(options.out).c_str(), stdout);

@@ -83,7 +83,7 @@ Finding try_case(const Case& one, const std::string& rendering) {
     reading = player->update(hand);
     check(one.ticks + 1 + i);
   }
-  finding.is_at_rest = reading.status == TickStatus::converged;
+  finding.is_at_rest = reading.status == TickStatus::converged && reading.is_at_rest;
   finding.converged = double(converged) / double(times.size());
   finding.microseconds = bench::quantile(times, 0.5);
   const study::Truth truth(scene);
@@ -95,6 +95,7 @@ Finding try_case(const Case& one, const std::string& rendering) {
   // In float a pose is rounded on the way out, and the margin follows that.
   const double reach = scene.vertices.cwiseAbs().maxCoeff() + truth.radius();
   const double allowed = one.distance_allowed + (rendering == "float" ? 40 * double(std::numeric_limits<float>::epsilon()) * reach : 0);
+  if (finding.distance < 0 && finding.fault.empty()) finding.fault = "no nearest pose is proved";
   if (!(finding.distance <= allowed) && finding.fault.empty()) finding.fault = text("%.2g m off the nearest pose; %g m is allowed", finding.distance, allowed);
   return finding;
 }

@@ -30,22 +30,27 @@ double largest_distance(const StudyScene& scene, const Pose<Wide>& a, const Pose
 }  // namespace
 
 const TruthPath& TruthPaths::of(const StudyScene& scene, const Cell& cell, const Truth& truth, double margin, double kept) {
-  constexpr int rate = 4000, most_ticks_held = 100;
-  const auto [place, is_new] = made_.try_emplace({cell.scene, cell.scale, cell.offset, margin, kept});
-  TruthPath& path = place->second;
-  if (!is_new) return path;
+  constexpr int rate = 4000, most_ticks_held = 100, hopeless = 10;
+  const std::tuple key(cell.scene, cell.scale, cell.offset, margin, kept);
+  if (const auto found = made_.find(key); found != made_.end()) return found->second;
+  TruthPath path;
   Cell unlimited = cell;
   unlimited.rendering = "double";
   unlimited.margin = margin;
-  unlimited.budget = 1000000;
+  unlimited.budget = 4000;
   unlimited.iterations = 32;
   const auto player = rendering("double").make(scene, unlimited);
   if (player->reset(scene.start) != TickStatus::converged) throw std::invalid_argument("the scene starts in penetration");
-  for (int k = 1; k <= int(seconds_ * rate); ++k) {
+  for (int k = 1; k <= int(std::lround(seconds_ * rate)); ++k) {
     const double time = double(k) / rate;
     const Pose<double> hand = scene.motion(time);
     Reading reading = player->update(hand);
     if (k % (rate / TruthPath::samples_a_second) != 0) continue;
+    // A fit that is tighter than twice the distance has no pose that keeps it.
+    if (path.samples.empty() && path.missing >= hopeless) {
+      path.missing = int(std::lround(seconds_ * TruthPath::samples_a_second));
+      break;
+    }
     for (int i = 0; i < most_ticks_held && !(reading.status == TickStatus::converged && reading.is_at_rest); ++i) reading = player->update(hand);
     const auto nearest = truth.nearest(hand, narrow(reading.pose), margin, kept);
     if (!nearest) {
@@ -58,7 +63,7 @@ const TruthPath& TruthPaths::of(const StudyScene& scene, const Cell& cell, const
                             {nearest->pose.translation.unaryExpr(wide), Quaternion<Wide>(wide(rotation.w()), wide(rotation.x()), wide(rotation.y()), wide(rotation.z()))},
                             nearest->force.unaryExpr(wide), nearest->torque.unaryExpr(wide), !nearest->active.empty()});
   }
-  return path;
+  return made_.emplace(key, std::move(path)).first->second;
 }
 
 CellFigures figures_of(const Cell& cell, double seconds, unsigned seed, TruthPaths& paths) {
@@ -90,7 +95,7 @@ CellFigures figures_of(const Cell& cell, double seconds, unsigned seed, TruthPat
   std::size_t next = 0, next_own = 0;
   int converged = 0, unconverged_run = 0, longest_run = 0;
   Vector3<Wide> last_force = Vector3<Wide>::Zero(), last_change = Vector3<Wide>::Zero();
-  const int ticks = int(seconds * cell.rate);
+  const int ticks = int(std::lround(seconds * cell.rate));
   for (int k = 1; k <= ticks; ++k) {
     const double time = double(k) / cell.rate;
     const Reading reading = player->update(scene.motion(time));
@@ -105,6 +110,8 @@ CellFigures figures_of(const Cell& cell, double seconds, unsigned seed, TruthPat
       work.push_back(reading.work);
       times.push_back(reading.microseconds);
     }
+    if (k % (cell.rate / TruthPath::samples_a_second) == 0)
+      for (const auto& piece : pieces) figures.deepest = std::max(figures.deepest, double(test::deepest_penetration(object, piece, test::checked_pose(reading.pose)).depth));
     if (const auto* own = sample_at(*own_path, time, next_own)) solver_errors.push_back(largest_distance(scene, reading.pose, own->pose));
     const auto* found = sample_at(*path, time, next);
     if (found == nullptr) continue;
@@ -113,7 +120,6 @@ CellFigures figures_of(const Cell& cell, double seconds, unsigned seed, TruthPat
     force_errors.push_back(double((reading.force - sample.force).norm()));
     force_differences.push_back(force_difference(force_errors.back(), double(sample.force.norm())));
     torque_differences.push_back(torque_difference(double((reading.torque - sample.torque).norm()), double(sample.torque.norm())));
-    for (const auto& piece : pieces) figures.deepest = std::max(figures.deepest, double(test::deepest_penetration(object, piece, test::checked_pose(reading.pose)).depth));
     if (sample.is_in_contact) {
       const Pose<Real> pose{reading.pose.translation.cast<Real>(), reading.pose.rotation.cast<Real>()};
       const double reach = 10 * cell.margin;
@@ -126,6 +132,7 @@ CellFigures figures_of(const Cell& cell, double seconds, unsigned seed, TruthPat
   figures.samples_without_truth = path->missing;
   figures.converged = double(converged) / std::max(ticks, 1);
   figures.error_median = quantile(errors, 0.5), figures.error_99 = quantile(errors, 0.99), figures.error_most = quantile(errors, 1);
+  figures.solver_samples = int(solver_errors.size());
   figures.solver_error_median = quantile(solver_errors, 0.5), figures.solver_error_99 = quantile(solver_errors, 0.99);
   figures.within_tenth_micrometre = share_within(1e-7), figures.within_micrometre = share_within(1e-6);
   figures.separation = quantile(separations, 0.5);

@@ -44,9 +44,10 @@ struct CellFigures {
   int samples = 0, samples_without_truth = 0;
   double converged = 0;                                 ///< share of all ticks
   double error_median = 0, error_99 = 0, error_most = 0;  ///< a point of the tool is off by at most [m]
-  double solver_error_median = 0, solver_error_99 = 0;    ///< the same from the minimum at the cell's own margin [m]
+  int solver_samples = 0;                                 ///< for which there is a proved minimum at the cell's own margin
+  double solver_error_median = 0, solver_error_99 = 0;    ///< the distance from that [m]
   double within_tenth_micrometre = 0, within_micrometre = 0;
-  double deepest = 0;                          ///< penetration, by the checker that shares no code with the library [m]
+  double deepest = 0;                          ///< penetration of the samples, by the checker that shares no code with the library [m]
   double separation = 0;                       ///< median of the contacts [m]
   double force_error_median = 0, force_error_99 = 0;  ///< [N]
   double force_jnd_99 = 0, torque_jnd_99 = 0;  ///< in just-noticeable differences

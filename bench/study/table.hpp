@@ -21,6 +21,19 @@ Provenance provenance(double seconds, unsigned seed);
 inline constexpr const char* results_name = "study.csv";
 inline constexpr const char* times_name = "study_times.csv";
 
+/// Nobody else works in a folder as long as this is there.
+class FolderLock {
+ public:
+  /// @throws std::runtime_error  where the folder cannot be made, or another program works in it
+  explicit FolderLock(const std::filesystem::path& folder);
+  ~FolderLock();
+  FolderLock(const FolderLock&) = delete;
+  FolderLock& operator=(const FolderLock&) = delete;
+
+ private:
+  int file_ = -1;
+};
+
 /// A row of each file for every cell that is done, by the cell's number. Rows are added as cells end and are on disk at once; a run that was killed goes on
 /// from them.
 class Table {
@@ -29,13 +42,14 @@ class Table {
   /// @throws std::runtime_error  where they cannot be read or written, or hold rows of another program, motion or selection
   Table(const std::filesystem::path& folder, const std::vector<Cell>& cells, const Provenance& provenance);
 
-  bool has(int number) const { return results_.contains(number); }
+  bool has(int number) const { return results_.contains(number) && times_.contains(number); }
   /// @throws std::runtime_error  where the row does not reach the disk: what was there before is there still
   void add(int number, const Cell& cell, const CellFigures& figures);
   /// Writes both files anew, in the order of the cells.
   void sort() const;
 
  private:
+  FolderLock lock_;
   std::filesystem::path folder_;
   std::string tail_;                    // columns that are the same in each row
   std::map<int, std::string> results_;  // rows by number
@@ -43,7 +57,8 @@ class Table {
 };
 
 /// The files of several folders as one.
-/// @throws std::runtime_error  where a file is missing or cut short, a row is in two with other figures, or one is in none
+/// @throws std::runtime_error  where a file is missing or cut short, a row is in two with other figures or in none, the folders are not of one study, or `into` holds
+///                             another
 void merge(const std::vector<std::filesystem::path>& from, const std::filesystem::path& into);
 
 /// A row as names and values.

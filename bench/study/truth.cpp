@@ -336,10 +336,18 @@ bool Truth::is_independent(const FeaturePair& pair, NearestPose answer) const {
   return Eigen::JacobiSVD<Eigen::MatrixXd>(held_rows(answer)).singularValues().minCoeff() > 1e-6;
 }
 
-/// Whether the pairs that are held push, and no other is nearer.
+/// Whether the pairs that are held push, are closest inside both of their features or the same as a pair that is, and no other is nearer.
 bool Truth::is_stationary(const NearestPose& answer, double distance) const {
-  const auto near = pairs_near(answer.pose, distance + 1e-13);
-  return std::all_of(answer.multipliers.begin(), answer.multipliers.end(), [](const Real& multiplier) { return multiplier >= -Real("1e-24"); }) &&
+  const auto near = pairs_near(answer.pose, distance + 1e-13 + rounding_);
+  const auto is_met = [&](const FeaturePair& held) {
+    const Gap at = gap(held, answer.pose);
+    return std::any_of(near.begin(), near.end(), [&](const Near& one) {
+      if (one.pair == held) return true;
+      const Gap other = gap(one.pair, answer.pose);
+      return other.value <= distance + rounding_ && (other.gradient - at.gradient).norm() < 1e-7;
+    });
+  };
+  return std::all_of(answer.active.begin(), answer.active.end(), is_met) && std::all_of(answer.multipliers.begin(), answer.multipliers.end(), [](const Real& multiplier) { return multiplier >= -Real("1e-24"); }) &&
          std::all_of(near.begin(), near.end(), [&](const Near& one) { return gap(one.pair, answer.pose).value >= distance - rounding_; });
 }
 

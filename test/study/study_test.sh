@@ -46,7 +46,11 @@ refuses() {
 
   rm part2/study.csv
   refuses 'is not there' --merge part1 part2 part3 --out merged
-  refuses 'is in none of the folders' --merge part1 part3 --out merged
+  refuses 'is in none of the folders' --merge part1 part3 --out none
+  "$study" $choose --seed 2 --shard 2/3 --out part2
+  refuses 'not of one study: seed' --merge part1 part2 part3 --out none
+  "$study" $choose --seed 2 --out other
+  refuses 'holds another study' --merge other --out merged
 
   # Killed: some rows, the last of them cut in half.
   mkdir killed
@@ -57,12 +61,15 @@ refuses() {
   "$study" $choose --out killed | grep -q '6 cells measured, 4 were there' || fail "a run that was killed was to go on"
   cmp whole/study.csv killed/study.csv
 
+  cp other/study_times.csv part1/study_times.csv
+  sed -i 's/wedge_4/plate_2/' part1/study_times.csv
+  refuses 'times of another selection' $choose --shard 1/3 --out part1
+
   refuses 'another build, machine, motion or selection' $choose --seed 2 --out whole
   refuses 'cannot be made' $choose --out /dev/null/study
 
   # A disk that is full, to the program: files of no more than 2 kB.
   (
-    trap '' XFSZ
     ulimit -f 4
     refuses 'cannot be written' $choose --out full
   )
@@ -76,4 +83,6 @@ refuses 'There is no sweep colour' --sweep colour
 refuses 'leave no cell' --sweep offset --scene cavity_1mm
 refuses 'such as 2/8' --shard 9/8
 refuses 'such as 2/8' --shard some
+refuses 'such as 2/8' --shard ''
+refuses 'There is no scene' --prove 3 --scene nosuch
 "$study" --list | grep -q 'what does the margin cost' || fail "--list names the sweeps"
