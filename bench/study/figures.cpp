@@ -35,7 +35,7 @@ std::string block(const std::string& name, std::vector<std::pair<double, double>
   return data + "EOD\n";
 }
 
-constexpr std::array<const char*, 7> colours{"#2f6db5", "#c8322b", "#2e8b57", "#e08e0b", "#7b4fa3", "#444444", "#0fa3a3"};
+constexpr std::array<const char*, 8> colours{"#2f6db5", "#c8322b", "#2e8b57", "#e08e0b", "#7b4fa3", "#444444", "#0fa3a3", "#b0699a"};
 
 /// Error against one choice, a line for each scene, coloured by its family.
 std::string panel(const std::vector<Row>& rows, const Choice& choice, int panel_number) {
@@ -66,8 +66,8 @@ std::string panel(const std::vector<Row>& rows, const Choice& choice, int panel_
 }
 
 bool draw_sweeps(const fs::path& folder, const std::vector<Row>& rows) {
-  std::string body = "set logscale xy; set yrange [1e-9:1e-2]; set format y '10^{%L}'; set ylabel 'error, p99  [m]'\nset multiplot layout 2,2 margins 0.09,0.98,0.09,0.92 spacing 0.1,0.13\n"
-                     "set key at screen 0.98, 0.985 horizontal maxrows 1\n";
+  std::string body = "set logscale xy; set yrange [1e-9:1e-2]; set format y '10^{%L}'; set ylabel 'error, p99  [m]'\nset multiplot layout 2,2 margins 0.09,0.97,0.09,0.88 spacing 0.1,0.13\n"
+                     "set key at screen 0.97, 0.99 horizontal maxrows 3\n";
   int count = 0;
   for (std::size_t i = 0; i < 4; ++i) {
     const std::string one = panel(rows, choices[i], count);
@@ -107,7 +107,7 @@ bool draw_fronts(const fs::path& folder, const std::vector<Row>& rows, const std
 }
 
 bool draw_scalars(const fs::path& folder, const std::vector<Row>& rows) {
-  std::string body = "set logscale xy; set format '10^{%L}'; set yrange [1e-10:1e0]\nset multiplot layout 1,2 margins 0.09,0.98,0.15,0.9 spacing 0.1\nset key at screen 0.98, 0.985 horizontal maxrows 1\n";
+  std::string body = "set logscale xy; set format '10^{%L}'; set yrange [1e-16:1e0]\nset multiplot layout 1,2 margins 0.09,0.97,0.15,0.84 spacing 0.1\nset key at screen 0.97, 0.99 horizontal maxrows 2\n";
   int count = 0;
   for (const std::size_t i : {std::size_t(5), std::size_t(4)}) {
     std::string data, plot;
@@ -117,8 +117,8 @@ bool draw_scalars(const fs::path& folder, const std::vector<Row>& rows) {
       for (const Row& row : rows)
         if (is_measured(row) && text(row, "rendering") == rendering && is_standard_but_for(row, choices[i].column)) {
           if (!std::set<std::string>{"bore_24", "plate_2", "wedge_4"}.contains(text(row, "scene"))) continue;
-          double& most = worst[std::max(number(row, choices[i].column), 0.1)];
-          most = std::max(most, number(row, "error_median_m"));
+          double& most = worst[std::string(choices[i].column) == "offset_m" ? std::max(number(row, choices[i].column), 0.1) : number(row, choices[i].column)];
+          most = std::max({most, number(row, "solver_error_p99_m"), 1e-16});
         }
       if (worst.size() < 2) continue;
       const std::string name = "s" + std::to_string(i) + "_" + std::to_string(lines++);
@@ -126,7 +126,7 @@ bool draw_scalars(const fs::path& folder, const std::vector<Row>& rows) {
       plot += (plot.empty() ? "plot $" : ", $") + name + " using 1:2 with linespoints pt 7 ps 0.6 lw 1.8 lc rgb '" + colour + "' " + (count == 0 ? "title '" + legible(rendering) + "'" : "notitle");
     }
     if (plot.empty()) continue;
-    body += data + "set xlabel '" + choices[i].label + "'\nset ylabel '" + (count == 0 ? "error, median, of the worst of three scenes  [m]" : "") + "'\n" + plot + "\n";
+    body += data + "set xlabel '" + choices[i].label + "'\nset ylabel '" + (count == 0 ? "off the minimum, p99, worst scene  [m]" : "") + "'\n" + plot + "\n";
     ++count;
   }
   return count == 0 || experiments::draw(folder, "study_scalars", 1000, 420, body + "unset multiplot\n");
