@@ -86,8 +86,11 @@ int study(const Options& options) {
   Table table(options.out, cells, provenance(seconds, options.seed));
   std::vector<int> todo;
   int there = 0;
-  for (int i = 0; i < int(cells.size()); ++i)
-    if (i % options.shards == options.shard - 1) table.has(i) ? void(++there) : todo.push_back(i);
+  for (int i = 0; i < int(cells.size()); ++i) {
+    if (i % options.shards != options.shard - 1) continue;
+    if (table.has(i)) ++there;
+    else todo.push_back(i);
+  }
   TruthPaths paths(seconds);
   Progress progress(int(todo.size()));
   for (std::size_t i = 0; i < todo.size(); ++i) {
