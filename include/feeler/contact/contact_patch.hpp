@@ -144,7 +144,7 @@ class ContactPatch {
   }
 
  private:
-  inline static const Scalar least_cosine = PatchTriangle<Scalar>::least_cosine, plane_tolerance = SurfaceAround<Scalar, MeshScalar>::tolerance;
+  inline static const Scalar &least_cosine = PatchTriangle<Scalar>::least_cosine, &plane_tolerance = SurfaceAround<Scalar, MeshScalar>::tolerance;
 
   static std::size_t index(int i) noexcept { return std::size_t(i); }
 
