@@ -76,9 +76,7 @@ struct Example {
 class View {
  public:
   View(double left, double top) : left_(left), top_(top) {}
-  Eigen::Vector2d operator()(const Vector& p) const {
-    return {left_ + scale * right().dot(p), top_ - scale * up().dot(p)};
-  }
+  Eigen::Vector2d operator()(const Vector& p) const { return {left_ + scale * right().dot(p), top_ - scale * up().dot(p)}; }
   static Vector right() { return {std::cos(azimuth), std::sin(azimuth), 0}; }
   static Vector toward() { return Vector(std::sin(azimuth) * std::cos(elevation), -std::cos(azimuth) * std::cos(elevation), std::sin(elevation)); }
   static Vector up() { return toward().cross(right()); }
@@ -126,8 +124,8 @@ class Drawing {
     }
     out_ << "<polygon points=\"";
     points(view, corners);
-    out_ << "\" fill=\"" << (corners.size() > 2 ? colour : "none") << "\" fill-opacity=\"0.35\" stroke=\"" << colour
-         << "\" stroke-width=\"" << (corners.size() == 2 ? 3 : 2) << "\" stroke-linejoin=\"round\"/>\n";
+    out_ << "\" fill=\"" << (corners.size() > 2 ? colour : "none") << "\" fill-opacity=\"0.35\" stroke=\"" << colour << "\" stroke-width=\""
+         << (corners.size() == 2 ? 3 : 2) << "\" stroke-linejoin=\"round\"/>\n";
   }
   void hidden_edge(const View& view, const Vector& a, const Vector& b) {
     const auto p = view(a), q = view(b);
@@ -135,8 +133,8 @@ class Drawing {
          << "\" stroke=\"#8c1c13\" stroke-width=\"0.8\" stroke-dasharray=\"3 3\"/>\n";
   }
   void text(double x, double y, double size, const char* colour, const std::string& content) {
-    out_ << "<text x=\"" << x << "\" y=\"" << y << "\" font-family=\"Helvetica, Arial, sans-serif\" font-size=\"" << size << "\" fill=\""
-         << colour << "\" text-anchor=\"middle\">" << content << "</text>\n";
+    out_ << "<text x=\"" << x << "\" y=\"" << y << "\" font-family=\"Helvetica, Arial, sans-serif\" font-size=\"" << size << "\" fill=\"" << colour
+         << "\" text-anchor=\"middle\">" << content << "</text>\n";
   }
 
  private:
@@ -205,11 +203,18 @@ int main(int argc, char** argv) {
   using enum PrincipalContactType;
   const auto flat = roof(0), valley = roof(0.4), ridge = roof(-0.5), pit = pyramid(0.35), tip = pyramid(-0.5);
   const auto vertex = FeatureKind::vertex, edge = FeatureKind::edge, face = FeatureKind::face;
-  const std::vector<Example> examples{
-      {vertex_face, flat, vertex, 0.4},         {edge_convex_edge, ridge, edge, 1.5708},     {vertex_concave_edge, valley, vertex, 0.4},
-      {vertex_concave_vertex, pit, vertex, 0.1}, {edge_concave_edge, valley, edge, 0},        {edge_face, flat, edge, 0.9},
-      {face_face, flat, face, -0.1},              {vertex_convex_edge, ridge, vertex, 0.4},    {vertex_convex_vertex, tip, vertex, 0.4},
-      {edge_convex_vertex, tip, edge, 1.2},      {face_convex_vertex, tip, face, -0.1},        {face_convex_edge, ridge, face, -0.1}};
+  const std::vector<Example> examples{{vertex_face, flat, vertex, 0.4},
+                                      {edge_convex_edge, ridge, edge, 1.5708},
+                                      {vertex_concave_edge, valley, vertex, 0.4},
+                                      {vertex_concave_vertex, pit, vertex, 0.1},
+                                      {edge_concave_edge, valley, edge, 0},
+                                      {edge_face, flat, edge, 0.9},
+                                      {face_face, flat, face, -0.1},
+                                      {vertex_convex_edge, ridge, vertex, 0.4},
+                                      {vertex_convex_vertex, tip, vertex, 0.4},
+                                      {edge_convex_vertex, tip, edge, 1.2},
+                                      {face_convex_vertex, tip, face, -0.1},
+                                      {face_convex_edge, ridge, face, -0.1}};
   const Tool tool(Vector(0.008, 0.008, 0.008));
 
   std::ostringstream svg;

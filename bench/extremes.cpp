@@ -48,8 +48,9 @@ std::string outcome_of(const Case& one, const Finding& finding) {
 
 void print(const Case& one, const std::string& scalar, const Finding& finding) {
   const bool is_rendered = finding.refusal.empty();
-  std::printf("%-20s %-40s %-12s %9s %9s %5.0f %8.1f  %s\n", one.group.c_str(), one.name.c_str(), scalar.c_str(), is_rendered ? length(finding.deepest).c_str() : "–",
-              is_rendered ? length(finding.distance).c_str() : "–", 100 * finding.converged, finding.microseconds, outcome_of(one, finding).c_str());
+  std::printf("%-20s %-40s %-12s %9s %9s %5.0f %8.1f  %s\n", one.group.c_str(), one.name.c_str(), scalar.c_str(),
+              is_rendered ? length(finding.deepest).c_str() : "–", is_rendered ? length(finding.distance).c_str() : "–", 100 * finding.converged,
+              finding.microseconds, outcome_of(one, finding).c_str());
   std::fflush(stdout);
 }
 
@@ -73,17 +74,21 @@ void print_markdown(const Case& one, const std::vector<std::string>& renderings,
   for (const Finding& finding : findings) line += " " + (finding.refusal.empty() ? length(finding.distance) : "–") + " |";
   if (!is_same) {
     outcomes.clear();
-    for (std::size_t i = 0; i < findings.size(); ++i) outcomes += (i > 0 ? "; `" : "`") + study::rendering(renderings[i]).scalar + "` " + outcome_of(one, findings[i]);
+    for (std::size_t i = 0; i < findings.size(); ++i)
+      outcomes += (i > 0 ? "; `" : "`") + study::rendering(renderings[i]).scalar + "` " + outcome_of(one, findings[i]);
   }
   char numbers[80];
-  std::snprintf(numbers, sizeof numbers, first == findings.end() ? " – | – |" : " %.0f | %.0f |", first == findings.end() ? 0 : 100 * first->converged, first == findings.end() ? 0 : first->microseconds);
+  std::snprintf(numbers, sizeof numbers, first == findings.end() ? " – | – |" : " %.0f | %.0f |",
+                first == findings.end() ? 0 : 100 * first->converged, first == findings.end() ? 0 : first->microseconds);
   std::printf("%s%s %s |\n", line.c_str(), numbers, outcomes.c_str());
   std::fflush(stdout);
 }
 
 /// @return 1 where a case is not as expected
 int run_battery(const Options& options) {
-  const auto is_among = [](const std::vector<std::string>& list, const std::string& name) { return list.empty() || std::find(list.begin(), list.end(), name) != list.end(); };
+  const auto is_among = [](const std::vector<std::string>& list, const std::string& name) {
+    return list.empty() || std::find(list.begin(), list.end(), name) != list.end();
+  };
   std::vector<std::string> groups;
   for (const Case& one : cases())
     if (groups.empty() || groups.back() != one.group) groups.push_back(one.group);
@@ -161,8 +166,10 @@ int soak(long ticks) {
       grown = memory() - start;
     }
     const auto tenth = times.begin() + std::ptrdiff_t(times.size() / 10);
-    std::printf("%-12s %9ld ticks, converged %.2f %%, drift %.1e m, deepest %g m, memory %+ld kB in the second half, median %.1f µs at first and %.1f µs then\n", name, count,
-                100.0 * double(converged) / double(count), drift, deepest, grown, bench::quantile({times.begin(), tenth}, 0.5), bench::quantile({tenth, times.end()}, 0.5));
+    std::printf(
+        "%-12s %9ld ticks, converged %.2f %%, drift %.1e m, deepest %g m, memory %+ld kB in the second half, median %.1f µs at first and %.1f µs then\n",
+        name, count, 100.0 * double(converged) / double(count), drift, deepest, grown, bench::quantile({times.begin(), tenth}, 0.5),
+        bench::quantile({tenth, times.end()}, 0.5));
     std::fflush(stdout);
     constexpr long most_growth = 1024;  // [kB]
     if (deepest > 0 || drift > 1e-7 || grown > most_growth) result = 1;

@@ -61,8 +61,7 @@ constexpr std::array<const char*, 3> start_names{"cold", "warm", "evicted"};
 
 /// Times of the problems of a family, each the median of some rounds over all of them.
 template <class Solver>
-std::vector<double> microseconds(Solver& solver, const std::vector<feeler::qp_families::Problem>& problems,
-                                 Start start, int rounds) {
+std::vector<double> microseconds(Solver& solver, const std::vector<feeler::qp_families::Problem>& problems, Start start, int rounds) {
   static const double overhead = clock_overhead();
   static Eviction evict;
   feeler::QpSolution<double> solution;
@@ -92,8 +91,7 @@ std::vector<double> microseconds(Solver& solver, const std::vector<feeler::qp_fa
 }
 
 double quantile(const std::vector<double>& sorted, double q) {
-  return sorted.empty() ? std::numeric_limits<double>::quiet_NaN()
-                        : sorted[std::size_t(q * double(sorted.size() - 1) + 0.5)];
+  return sorted.empty() ? std::numeric_limits<double>::quiet_NaN() : sorted[std::size_t(q * double(sorted.size() - 1) + 0.5)];
 }
 
 constexpr const char* script_text =
@@ -148,10 +146,8 @@ class Bench {
     for (auto& [solver, summary] : summaries_) {
       std::sort(summary.microseconds.begin(), summary.microseconds.end());
       std::sort(summary.distances.begin(), summary.distances.end());
-      points << '"' << solver << "\" " << quantile(summary.microseconds, 0.5) << ' '
-             << quantile(summary.microseconds, 0.99) << ' '
-             << std::max(quantile(summary.distances, 0.9), 1e-17) << ' '
-             << 100.0 * summary.right / summary.problems << '\n';
+      points << '"' << solver << "\" " << quantile(summary.microseconds, 0.5) << ' ' << quantile(summary.microseconds, 0.99) << ' '
+             << std::max(quantile(summary.distances, 0.9), 1e-17) << ' ' << 100.0 * summary.right / summary.problems << '\n';
     }
     points.close();
     std::ofstream script(options_.out / "speed_and_accuracy.gp");
@@ -182,12 +178,10 @@ class Bench {
       const bool is_warm = all_starts[start] == Start::warm;
       if (is_warm && !(family.is_sequence && feeler::qp_families::has_warm_start<Solver>)) continue;
       const auto times = microseconds(*solver, problems, all_starts[start], options_.rounds);
-      if (all_starts[start] == Start::cold)
-        summary.microseconds.insert(summary.microseconds.end(), times.begin(), times.end());
+      if (all_starts[start] == Start::cold) summary.microseconds.insert(summary.microseconds.end(), times.begin(), times.end());
       char line[400];
-      std::snprintf(line, sizeof line, "%s,%s,%s,%zu,%.3f,%.3f,%.3f,%d,%d,%d,%.2g,%.2g", named.name.c_str(),
-                    family.name.c_str(), start_names[start], problems.size(), quantile(times, 0.5),
-                    quantile(times, 0.99), quantile(times, 1.0), verdicts[1], verdicts[2], verdicts[3],
+      std::snprintf(line, sizeof line, "%s,%s,%s,%zu,%.3f,%.3f,%.3f,%d,%d,%d,%.2g,%.2g", named.name.c_str(), family.name.c_str(), start_names[start],
+                    problems.size(), quantile(times, 0.5), quantile(times, 0.99), quantile(times, 1.0), verdicts[1], verdicts[2], verdicts[3],
                     quantile(distances, 0.5), quantile(distances, 1.0));
       csv_ << line << '\n';
       std::printf("%s\n", line);
@@ -204,9 +198,7 @@ class Bench {
 
 int run(const Options& options) {
   const auto& families = feeler::qp_families::all_families();
-  if (!options.family.empty() && std::none_of(families.begin(), families.end(), [&](const auto& family) {
-        return family.name == options.family;
-      }))
+  if (!options.family.empty() && std::none_of(families.begin(), families.end(), [&](const auto& family) { return family.name == options.family; }))
     throw std::invalid_argument("there is no family " + options.family);
   std::error_code error;
   std::filesystem::create_directories(options.out, error);
@@ -214,11 +206,9 @@ int run(const Options& options) {
 
   Bench bench(options);
   for (std::size_t i = 0; i < families.size(); ++i) {
-    if (options.family.empty() || families[i].name == options.family)
-      bench.run(families[i], options.seed + unsigned(i));
+    if (options.family.empty() || families[i].name == options.family) bench.run(families[i], options.seed + unsigned(i));
   }
-  if (!bench.draw())
-    std::fprintf(stderr, "feeler-qp-bench: gnuplot did not draw; the figures are in qp.csv\n");
+  if (!bench.draw()) std::fprintf(stderr, "feeler-qp-bench: gnuplot did not draw; the figures are in qp.csv\n");
   return 0;
 }
 
@@ -226,12 +216,9 @@ int run(const Options& options) {
 
 int main(int argc, char** argv) {
   Options options;
-  CLI::App app(
-      "Times QP solvers on contact problems, and measures how far their answers lie from the exact ones.",
-      "feeler-qp-bench");
+  CLI::App app("Times QP solvers on contact problems, and measures how far their answers lie from the exact ones.", "feeler-qp-bench");
   app.add_option("--problems", options.problems, "of each family, at least")->check(CLI::Range(1, 100000));
-  app.add_option("--rounds", options.rounds, "over the problems of a family; the median counts")
-      ->check(CLI::Range(1, 1000));
+  app.add_option("--rounds", options.rounds, "over the problems of a family; the median counts")->check(CLI::Range(1, 1000));
   app.add_option("--seed", options.seed, "of the problems");
   app.add_option("--family", options.family, "only this one");
   app.add_option("--out", options.out, "folder for qp.csv and the plot");

@@ -58,8 +58,7 @@ class Study {
 
   /// A line a solver, and below it a line for each family where it is not always right.
   void print() const {
-    std::printf("%-24s %9s %9s %9s %9s   %s\n", "", "right", "undecided", "wrong", "false inf",
-                "farthest right answer [m]");
+    std::printf("%-24s %9s %9s %9s %9s   %s\n", "", "right", "undecided", "wrong", "false inf", "farthest right answer [m]");
     feeler::qp_families::for_every_solver([&](const auto& named) {
       Tally all;
       for (const auto& [family, tally] : tallies_.at(named.name)) {
@@ -68,8 +67,7 @@ class Study {
       }
       print_line(named.name, all);
       for (const auto& [family, tally] : tallies_.at(named.name)) {
-        if (tally.times(Verdict::right) <
-            tally.verdicts[0] + tally.verdicts[1] + tally.verdicts[2] + tally.verdicts[3])
+        if (tally.times(Verdict::right) < tally.verdicts[0] + tally.verdicts[1] + tally.verdicts[2] + tally.verdicts[3])
           print_line("  " + family, tally);
       }
     });
@@ -77,16 +75,14 @@ class Study {
 
   bool is_right(const std::string& solver) const {
     const auto& families = tallies_.at(solver);
-    return std::all_of(families.begin(), families.end(), [](const auto& entry) {
-      return entry.second.verdicts[1] + entry.second.verdicts[2] + entry.second.verdicts[3] == 0;
-    });
+    return std::all_of(families.begin(), families.end(),
+                       [](const auto& entry) { return entry.second.verdicts[1] + entry.second.verdicts[2] + entry.second.verdicts[3] == 0; });
   }
 
  private:
   static void print_line(const std::string& name, const Tally& tally) {
-    std::printf("%-24s %9d %9d %9d %9d   %.2g\n", name.c_str(), tally.times(Verdict::right),
-                tally.times(Verdict::undecided), tally.times(Verdict::wrong),
-                tally.times(Verdict::falsely_infeasible), tally.farthest);
+    std::printf("%-24s %9d %9d %9d %9d   %.2g\n", name.c_str(), tally.times(Verdict::right), tally.times(Verdict::undecided),
+                tally.times(Verdict::wrong), tally.times(Verdict::falsely_infeasible), tally.farthest);
   }
 
   std::map<std::string, std::map<std::string, Tally>> tallies_;
@@ -97,8 +93,7 @@ class Study {
 int main(int argc, char** argv) {
   int problems = 1000;
   unsigned seed = std::random_device()();
-  CLI::App app("Counts wrong answers of QP solvers on fresh contact problems, judged in exact arithmetic.",
-               "feeler-qp-study");
+  CLI::App app("Counts wrong answers of QP solvers on fresh contact problems, judged in exact arithmetic.", "feeler-qp-study");
   app.add_option("--problems", problems, "how many, over all families")->check(CLI::Range(1, 100000000));
   app.add_option("--seed", seed, "of the problems; a new one each run unless given");
 

@@ -77,8 +77,7 @@ Figures replay(const feeler::scenes::Setting& scene, const Tool& tool, const Opt
   feeler::HapticRenderer renderer(object, tool, settings);
   if (renderer.reset(scene.start) != feeler::Status::converged) throw std::runtime_error("the scene starts in penetration");
 
-  const auto motion =
-      options.hostile_seed != 0 ? feeler::scenes::hostile(scene.motion, options.hostile_seed, options.rate) : scene.motion;
+  const auto motion = options.hostile_seed != 0 ? feeler::scenes::hostile(scene.motion, options.hostile_seed, options.rate) : scene.motion;
   const auto metric = feeler::Metric<double>::proportional_to(settings.stiffness);
   const feeler::test::CheckedObject checked_object(scene.vertices, scene.triangles);
   const auto checked_pieces = feeler::test::checked_pieces(tool);
@@ -106,8 +105,8 @@ Figures replay(const feeler::scenes::Setting& scene, const Tool& tool, const Opt
       Pose<double> from = last;
       for (const auto& to : tick.path) {
         for (const auto& piece : checked_pieces) {
-          const auto found = feeler::test::deepest_penetration_on_path(checked_object, piece, feeler::test::checked_pose(from),
-                                                                       feeler::test::checked_pose(to), 8);
+          const auto found =
+              feeler::test::deepest_penetration_on_path(checked_object, piece, feeler::test::checked_pose(from), feeler::test::checked_pose(to), 8);
           figures.deepest = std::max(figures.deepest, double(found.depth));
         }
         from = to;
@@ -131,16 +130,16 @@ double mean(const std::vector<double>& values) {
 void print_header(const Options& options) {
   const char* cost = options.counts_work ? "p50" : "p50 µs";
   if (options.counts_work) std::printf("work of a contact tick: 1 is a distance query, an optimisation, 16 planes or 16 nodes of the hierarchy\n");
-  std::printf("%-18s %13s %7s | %7s %7s %7s %7s %7s | %7s %7s | %9s %9s %9s | %9s\n", "scene", "contact/ticks", "conv %", "mean",
-              cost, "p99", "p99.9", "max", "rows", "iter99", "≤0.1 µm %", "of conv %", "p98 µm", "deepest m");
+  std::printf("%-18s %13s %7s | %7s %7s %7s %7s %7s | %7s %7s | %9s %9s %9s | %9s\n", "scene", "contact/ticks", "conv %", "mean", cost, "p99",
+              "p99.9", "max", "rows", "iter99", "≤0.1 µm %", "of conv %", "p98 µm", "deepest m");
 }
 
 void print(const std::string& name, const Figures& figures, const Options& options) {
   const auto& cost = figures.cost;
   const double contacts = double(std::max<std::size_t>(cost.size(), 1));
   std::printf("%-18s %6zu/%6d %7.2f | %7.1f %7.1f %7.1f %7.1f %7.1f | %7.0f %7.0f | ", name.c_str(), cost.size(), figures.ticks,
-              100.0 * figures.converged / contacts, mean(cost), quantile(cost, 0.5), quantile(cost, 0.99), quantile(cost, 0.999),
-              quantile(cost, 1.0), quantile(figures.rows, 0.5), quantile(figures.iterations, 0.99));
+              100.0 * figures.converged / contacts, mean(cost), quantile(cost, 0.5), quantile(cost, 0.99), quantile(cost, 0.999), quantile(cost, 1.0),
+              quantile(figures.rows, 0.5), quantile(figures.iterations, 0.99));
   if (figures.distance.empty()) {
     std::printf("%9s %9s %9s | ", "-", "-", "-");
   } else {
@@ -209,8 +208,9 @@ int compare_hashes(const Options& options) {
   auto golden = feeler::bench::read_golden_record(options.golden_file);
   const std::string file = options.golden_file;
   if (const auto arithmetic = feeler::bench::arithmetic(); arithmetic != golden.arithmetic) {
-    std::printf("skipped: last bits of sin, cos, tan, atan2, exp or x y + z differ here from those of %s (arithmetic %s, not %s), and so do trajectories\n",
-                file.c_str(), feeler::bench::hexadecimal(arithmetic).c_str(), feeler::bench::hexadecimal(golden.arithmetic).c_str());
+    std::printf(
+        "skipped: last bits of sin, cos, tan, atan2, exp or x y + z differ here from those of %s (arithmetic %s, not %s), and so do trajectories\n",
+        file.c_str(), feeler::bench::hexadecimal(arithmetic).c_str(), feeler::bench::hexadecimal(golden.arithmetic).c_str());
     return is_skipped;
   }
   int others = 0;
@@ -246,7 +246,8 @@ int compare_hashes(const Options& options) {
     }
   }
   if (others == 0) return 0;
-  std::printf("scenes that differ: %d. A change that was to change no behaviour has changed it; if that was meant: feeler-replay --hash > %s\n", others, file.c_str());
+  std::printf("scenes that differ: %d. A change that was to change no behaviour has changed it; if that was meant: feeler-replay --hash > %s\n",
+              others, file.c_str());
   return differs;
 }
 
@@ -261,12 +262,17 @@ int main(int argc, char** argv) {
   app.add_option("--seconds", options.seconds, "length of the motion")->check(CLI::Range(0.01, 1e4));
   app.add_option("--hostile", options.hostile_seed, "seed of teleports and spins; 0 for none");
   app.add_option("--check", options.check_every, "check every Nth tick for penetration; 0 for none")->check(CLI::NonNegativeNumber);
-  app.add_option("--settle", options.settle_every, "hold the device at every Nth contact tick and see where the tool settles; 0 for none")->check(CLI::NonNegativeNumber);
+  app.add_option("--settle", options.settle_every, "hold the device at every Nth contact tick and see where the tool settles; 0 for none")
+      ->check(CLI::NonNegativeNumber);
   app.add_option("--budget", options.work_budget, "Settings::work_budget; 0 for the default")->check(CLI::NonNegativeNumber);
   app.add_option("--margin", options.margin, "Settings::margin in metres; 0 for the default");
   app.add_flag("--work", options.counts_work, "report the work of a tick, which does not depend on the machine, in place of its time");
-  app.add_flag("--hash", options.hashes, "print one number for the bits of each scene's trajectory at 1 kHz, at 10 kHz and with a hostile hand; of the other options --scene alone counts");
-  app.add_option("--against", options.golden_file, "with --hash: compare with this file; 1 if a scene differs, 77 if the file is of another arithmetic")->needs("--hash");
+  app.add_flag(
+      "--hash", options.hashes,
+      "print one number for the bits of each scene's trajectory at 1 kHz, at 10 kHz and with a hostile hand; of the other options --scene alone counts");
+  app.add_option("--against", options.golden_file,
+                 "with --hash: compare with this file; 1 if a scene differs, 77 if the file is of another arithmetic")
+      ->needs("--hash");
   return feeler::bench::run_with_options(app, argc, argv, [&] {
     if (!options.hashes) return print_figures(options);
     return options.golden_file.empty() ? print_hashes(options) : compare_hashes(options);

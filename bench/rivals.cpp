@@ -28,8 +28,7 @@ struct Options {
 };
 
 template <class Tool>
-std::vector<Score> compete(const feeler::scenes::Setting& scene, const Tool& tool, double clearance,
-                           const Options& options) {
+std::vector<Score> compete(const feeler::scenes::Setting& scene, const Tool& tool, double clearance, const Options& options) {
   Arena arena(scene, tool, clearance, 1.0 / options.contest.rate);
   ContestOptions contest = options.contest;
   contest.seconds = options.seconds > 0.0 ? options.seconds : scene.duration;
@@ -40,32 +39,26 @@ std::vector<Score> compete(const feeler::scenes::Scene& scene, double clearance,
   return std::visit([&](const auto& tool) { return compete(scene, tool, clearance, options); }, scene.tool);
 }
 
-std::vector<Score> compete(const feeler::scenes::CompoundScene& scene, double clearance,
-                           const Options& options) {
-  return compete(scene, feeler::CompoundTool<feeler::ConvexPolytope<double>>::hulls_of(scene.pieces),
-                 clearance, options);
+std::vector<Score> compete(const feeler::scenes::CompoundScene& scene, double clearance, const Options& options) {
+  return compete(scene, feeler::CompoundTool<feeler::ConvexPolytope<double>>::hulls_of(scene.pieces), clearance, options);
 }
 
 /// The scenes wanted, with the teeth where their file is.
 std::vector<feeler::scenes::CatalogueEntry> wanted_scenes(const Options& options) {
   auto list = feeler::scenes::catalogue();
-  std::erase_if(list,
-                [&](const auto& entry) { return options.scene != "all" && options.scene != entry.family; });
+  std::erase_if(list, [&](const auto& entry) { return options.scene != "all" && options.scene != entry.family; });
   if (options.scene != "all" && options.scene != "teeth") return list;
   if (!fs::exists(options.teeth)) {
     if (options.scene == "teeth") {
-      throw std::runtime_error("The file " + options.teeth +
-                               " is not here: give the scan of the lower teeth with --teeth.");
+      throw std::runtime_error("The file " + options.teeth + " is not here: give the scan of the lower teeth with --teeth.");
     }
     std::fprintf(stderr, "teeth: left out, %s is not here\n", options.teeth.c_str());
     return list;
   }
   feeler::scenes::CatalogueEntry entry{.family = "teeth", .label = "lower teeth", .make = {}};
-  entry.make = [file =
-                    options.teeth]() -> std::variant<feeler::scenes::Scene, feeler::scenes::CompoundScene> {
+  entry.make = [file = options.teeth]() -> std::variant<feeler::scenes::Scene, feeler::scenes::CompoundScene> {
     auto mesh = feeler::demo::load_mesh(file, 1.0);
-    return feeler::scenes::lower_teeth(feeler::scenes::teeth_vertices(mesh.vertices),
-                                       std::move(mesh.triangles));
+    return feeler::scenes::lower_teeth(feeler::scenes::teeth_vertices(mesh.vertices), std::move(mesh.triangles));
   };
   list.push_back(std::move(entry));
   return list;
@@ -91,8 +84,7 @@ Findings run(const Options& options) {
     ContestOptions contest = options.contest;
     contest.seconds = options.seconds > 0.0 ? options.seconds : 4.0;
     for (const auto& [name, size, grow] :
-         {std::tuple("rivals_triangles", "triangles of the object", &grow_object),
-          std::tuple("rivals_vertices", "vertices of the tool", &grow_tool),
+         {std::tuple("rivals_triangles", "triangles of the object", &grow_object), std::tuple("rivals_vertices", "vertices of the tool", &grow_tool),
           std::tuple("rivals_pieces", "pieces of the tool", &cut_tool)}) {
       const auto curve = grow(contest);
       write_scaling(folder, name, curve);
@@ -103,9 +95,7 @@ Findings run(const Options& options) {
     std::vector<SceneScores> all;
     for (const auto& entry : wanted_scenes(options)) {
       std::fprintf(stderr, "%s\n", entry.label.c_str());
-      all.push_back({entry.label,
-                     std::visit([&](const auto& scene) { return compete(scene, entry.clearance, options); },
-                                entry.make())});
+      all.push_back({entry.label, std::visit([&](const auto& scene) { return compete(scene, entry.clearance, options); }, entry.make())});
     }
     for (const auto& scene : all) findings.has_feeler_penetrated |= has_penetrated(scene.scores.front());
     if (!all.empty()) {
@@ -139,14 +129,10 @@ int main(int argc, char** argv) {
   app.add_option("--scene", options.scene, "cavity, steps, spline, sulcus, terrain, teeth, plates or all")
       ->check(CLI::IsMember({"all", "cavity", "steps", "spline", "sulcus", "terrain", "teeth", "plates"}));
   app.add_option("--rate", options.contest.rate, "ticks a second")->check(CLI::Range(100.0, 1e5));
-  app.add_option("--seconds", options.seconds, "length of the motion; 0 for the scene's own")
-      ->check(CLI::Range(0.0, 1e4));
-  app.add_option("--repeats", options.contest.repeats, "identical runs; a tick's time is the least of them")
-      ->check(CLI::Range(1, 1000));
-  app.add_option("--check", options.contest.check_every, "check every Nth tick for penetration")
-      ->check(CLI::Range(1, 1000000));
-  app.add_option("--patience", options.contest.patience,
-                 "processor seconds after which a contender drops out of a run")
+  app.add_option("--seconds", options.seconds, "length of the motion; 0 for the scene's own")->check(CLI::Range(0.0, 1e4));
+  app.add_option("--repeats", options.contest.repeats, "identical runs; a tick's time is the least of them")->check(CLI::Range(1, 1000));
+  app.add_option("--check", options.contest.check_every, "check every Nth tick for penetration")->check(CLI::Range(1, 1000000));
+  app.add_option("--patience", options.contest.patience, "processor seconds after which a contender drops out of a run")
       ->check(CLI::Range(1e-3, 1e6));
   app.add_option("--teeth", options.teeth, "mesh file of the lower teeth");
   app.add_option("--out", options.folder, "folder of the CSV files, tables and figures");

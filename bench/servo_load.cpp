@@ -24,8 +24,7 @@ void write_histogram(const feeler::Histogram& latency, const std::filesystem::pa
   file.print("up_to_us,ticks\n");
   for (int bin = 0; bin < feeler::Histogram::bins; ++bin) {
     if (latency.count_in(bin) == 0) continue;
-    file.print("%.3f,%lld\n", double(feeler::Histogram::last_of(bin)) / 1000,
-               static_cast<long long>(latency.count_in(bin)));
+    file.print("%.3f,%lld\n", double(feeler::Histogram::last_of(bin)) / 1000, static_cast<long long>(latency.count_in(bin)));
   }
   file.close();
 }
@@ -37,8 +36,7 @@ int run(double rate, double seconds, int processor, const std::string& histogram
   if (renderer.reset(scene.start) != feeler::Status::converged) return 2;
   feeler::SimulatedPhantomSettings phantom_settings;
   phantom_settings.period = 1 / rate;
-  feeler::SimulatedPhantom phantom([&](double time) { return feeler::to_device_pose(scene.motion(time)); },
-                                   phantom_settings);
+  feeler::SimulatedPhantom phantom([&](double time) { return feeler::to_device_pose(scene.motion(time)); }, phantom_settings);
   phantom.open();
 
   feeler::ServoSettings settings;
@@ -46,8 +44,7 @@ int run(double rate, double seconds, int processor, const std::string& histogram
   settings.tick_limit = std::int64_t(rate * seconds);
   settings.real_time.processor = processor;
   feeler::ServoLoop loop(settings, phantom, [&](const feeler::ServoTick&, const feeler::DeviceState& state) {
-    return feeler::to_device_wrench(
-        renderer.update(feeler::from_device<feeler::Pose<double>>(state.pose)).wrench);
+    return feeler::to_device_wrench(renderer.update(feeler::from_device<feeler::Pose<double>>(state.pose)).wrench);
   });
   loop.start();
   const feeler::ServoReport& report = loop.wait();
@@ -65,9 +62,7 @@ int main(int argc, char** argv) {
   CLI::App app("How late the servo loop is, over minutes; load the machine beside it.", "feeler-servo-load");
   app.add_option("--rate", rate, "of the loop [Hz]")->check(CLI::Range(10.0, 20000.0))->capture_default_str();
   app.add_option("--seconds", seconds, "to run")->check(CLI::Range(0.01, 1e5))->capture_default_str();
-  app.add_option("--processor", processor, "to run on; -1 for any")
-      ->check(CLI::Range(-1, 4095))
-      ->capture_default_str();
+  app.add_option("--processor", processor, "to run on; -1 for any")->check(CLI::Range(-1, 4095))->capture_default_str();
   app.add_option("--histogram", histogram, "file for the wake-up latencies as CSV");
   return feeler::bench::run_with_options(app, argc, argv, [&] { return run(rate, seconds, processor, histogram); });
 }

@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include <CLI/CLI.hpp>
 #include <hacdHACD.h>
+#include <CLI/CLI.hpp>
 
 #include "bad_input.hpp"
 #include "command_line.hpp"
@@ -143,7 +143,8 @@ int run(const Options& options) {
   }
   std::printf("%d triangles into %d convex pieces, their corners in %s [m]\n", mesh.triangle_count(), tool.piece_count(), options.folder.c_str());
   for (int k = 0; k < tool.piece_count(); ++k) std::printf("  piece %d: %d vertices\n", k, tool.piece(k).vertex_count());
-  std::printf("the pieces bulge %.3g mm out of the mesh at most, and leave out %.3g mm of it (points %.2g mm apart)\n", 1e3 * excess, 1e3 * lack, 1e3 * spacing);
+  std::printf("the pieces bulge %.3g mm out of the mesh at most, and leave out %.3g mm of it (points %.2g mm apart)\n", 1e3 * excess, 1e3 * lack,
+              1e3 * spacing);
   return 0;
 }
 

@@ -28,14 +28,11 @@ bool draw_figures(const std::filesystem::path& folder, const std::string& study)
     for (const char* device : {"premium-3.0", "sigma.7"}) {
       const std::string of = std::string("'< grep ^") + device + ", limits_by_rate.csv' using 2:";
       body += std::string("set label 1 '") + device + "' at graph 0.05, graph 0.95\nplot " + of +
-              "3 with linespoints pt 7 lc rgb red title 'barely', " + of +
-              "4 with linespoints pt 7 lc rgb amber title 'soft', " + of +
-              "5 with linespoints pt 7 lc rgb green title 'relaxed', " + of +
-              "6 with linespoints pt 7 lc rgb blue title 'firm', " + of +
+              "3 with linespoints pt 7 lc rgb red title 'barely', " + of + "4 with linespoints pt 7 lc rgb amber title 'soft', " + of +
+              "5 with linespoints pt 7 lc rgb green title 'relaxed', " + of + "6 with linespoints pt 7 lc rgb blue title 'firm', " + of +
               "7 with lines dt 2 lc rgb ink title '2b/T'\n";
     }
-    is_drawn =
-        draw(folder, "stability_limits", 900, 420, body + "unset multiplot; unset label\n") && is_drawn;
+    is_drawn = draw(folder, "stability_limits", 900, 420, body + "unset multiplot; unset label\n") && is_drawn;
   }
   if (wanted("traces")) {
     std::string body =
@@ -67,18 +64,12 @@ int main(int argc, char** argv) {
   app.add_option("--study", study,
                  "all, presets, limits, rivals, slides, extrapolation, passivity, theory, traces, or figures "
                  "of what is in the folder")
-      ->check(CLI::IsMember({"all", "presets", "limits", "rivals", "slides", "extrapolation", "passivity",
-                             "theory", "traces", "figures"}));
-  app.add_option("--device", options.devices, "presets by their short names; all where none is given")
-      ->check(CLI::IsMember(names))
-      ->delimiter(',');
-  app.add_option("--rate", options.rates, "of the loop in the study of limits [Hz]")
-      ->check(CLI::Range(200.0, 1e5))
-      ->delimiter(',');
+      ->check(CLI::IsMember({"all", "presets", "limits", "rivals", "slides", "extrapolation", "passivity", "theory", "traces", "figures"}));
+  app.add_option("--device", options.devices, "presets by their short names; all where none is given")->check(CLI::IsMember(names))->delimiter(',');
+  app.add_option("--rate", options.rates, "of the loop in the study of limits [Hz]")->check(CLI::Range(200.0, 1e5))->delimiter(',');
   app.add_option("--scene", options.scene, "cavity, steps, plate or terrain; all where none is given")
       ->check(CLI::IsMember({"cavity", "steps", "plate", "terrain"}));
-  app.add_option("--grip", options.grip, "barely, soft, relaxed or firm; all where none is given")
-      ->check(CLI::IsMember(grip_names));
+  app.add_option("--grip", options.grip, "barely, soft, relaxed or firm; all where none is given")->check(CLI::IsMember(grip_names));
   app.add_flag("--no-friction", has_no_friction, "without the Coulomb friction of the device");
   app.add_flag("--no-figures", has_no_figures, "write CSV files and tables only");
   app.add_option("--out", folder, "folder of the CSV files, tables and figures");
@@ -103,14 +94,11 @@ int main(int argc, char** argv) {
       return 3;
     }
     if (disagreements > 0) {
-      std::fprintf(stderr, "feeler-stability: %d limits differ from linear theory by more than 7 %%.\n",
-                   disagreements);
+      std::fprintf(stderr, "feeler-stability: %d limits differ from linear theory by more than 7 %%.\n", disagreements);
       return 1;
     }
     if (unstable > 0) {
-      std::fprintf(stderr,
-                   "feeler-stability: %d loops are not stable at the stiffness of their preset; see above.\n",
-                   unstable);
+      std::fprintf(stderr, "feeler-stability: %d loops are not stable at the stiffness of their preset; see above.\n", unstable);
       return 1;
     }
     return 0;

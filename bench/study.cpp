@@ -37,7 +37,8 @@ struct Options {
 /// "2/8" as numbers.
 void read_shard(const std::string& text, Options& options) {
   int end = 0;
-  if (std::sscanf(text.c_str(), "%6d/%6d%n", &options.shard, &options.shards, &end) != 2 || std::size_t(end) != text.size() || options.shard < 1 || options.shard > options.shards)
+  if (std::sscanf(text.c_str(), "%6d/%6d%n", &options.shard, &options.shards, &end) != 2 || std::size_t(end) != text.size() || options.shard < 1 ||
+      options.shard > options.shards)
     throw std::invalid_argument("--shard is " + text + "; give one of so many, such as 2/8.");
 }
 
@@ -67,7 +68,8 @@ class Progress {
 
 int list(const std::vector<Cell>& cells) {
   std::printf("renderings:\n");
-  for (const auto& rendering : renderings()) std::printf("  %-16s %s, %s, %s\n", rendering.name.c_str(), rendering.scalar.c_str(), rendering.solver.c_str(), rendering.method.c_str());
+  for (const auto& rendering : renderings())
+    std::printf("  %-16s %s, %s, %s\n", rendering.name.c_str(), rendering.scalar.c_str(), rendering.solver.c_str(), rendering.method.c_str());
   std::printf("sweeps:\n");
   for (const auto& sweep : sweeps()) std::printf("  %-16s %s\n", sweep.name.c_str(), sweep.question.c_str());
   std::printf("cells:\n");
@@ -109,11 +111,16 @@ int study(const Options& options) {
 int prove(const Options& options) {
   const ProofFigures figures = prove_truth(options.proofs, options.seed, options.selection.scenes);
   std::printf("cells %d, with a minimum %d, in contact %d\n", figures.asked, figures.found, figures.in_contact);
-  std::printf("changed by two more steps of Newton's method: %.2g m at most; last step %.2g m; least curvature %.2g\n", figures.tightened, figures.last_step, figures.least_curvature);
-  std::printf("minima that penetrate, by the checker: %d; poses tried that are nearer to the hand: %d; free: %d\n", figures.deep, figures.searched, figures.better);
+  std::printf("changed by two more steps of Newton's method: %.2g m at most; last step %.2g m; least curvature %.2g\n", figures.tightened,
+              figures.last_step, figures.least_curvature);
+  std::printf("minima that penetrate, by the checker: %d; poses tried that are nearer to the hand: %d; free: %d\n", figures.deep, figures.searched,
+              figures.better);
   std::printf("scenes with a closed form: %d; off it: %.2g m at most\n", figures.formulas, figures.off_formulas);
   // Where the search fails there is no truth; that may be rare, and no more.
-  return figures.found * 10 >= figures.asked * 9 && figures.in_contact > 0 && figures.deep == 0 && figures.tightened < 1e-20 && figures.better == 0 && figures.off_formulas < 1e-20 ? 0 : 1;
+  return figures.found * 10 >= figures.asked * 9 && figures.in_contact > 0 && figures.deep == 0 && figures.tightened < 1e-20 && figures.better == 0 &&
+                 figures.off_formulas < 1e-20
+             ? 0
+             : 1;
 }
 
 }  // namespace
@@ -122,7 +129,8 @@ int main(int argc, char** argv) {
   std::signal(SIGXFSZ, SIG_IGN);  // a file that may not grow is a sentence, not an end
   Options options;
   std::string shard;
-  CLI::App app("feeler-study: what accuracy costs, and what speed: every cell measured against the rigid problem solved in 50 digits", "feeler-study");
+  CLI::App app("feeler-study: what accuracy costs, and what speed: every cell measured against the rigid problem solved in 50 digits",
+               "feeler-study");
   app.add_option("--scene", options.selection.scenes, "scenes, by name; all where not given")->delimiter(',');
   app.add_option("--sweep", options.selection.sweeps, "what is varied, by name; everything where not given")->delimiter(',');
   app.add_option("--rendering", options.selection.renderings, "scalar, QP solver and contact method, by name; all where not given")->delimiter(',');

@@ -83,8 +83,8 @@ class Experiments {
         scene.duration = seconds;
       }
       const auto ticks = simulate(scene, stiff_settings(method), method, file, steps_state);
-      expect_order(ticks, steps_state,
-                   {State::none, State::vertex_face, State::edge_edge, State::vertex_face, State::two_regions, State::none}, method);
+      expect_order(ticks, steps_state, {State::none, State::vertex_face, State::edge_edge, State::vertex_face, State::two_regions, State::none},
+                   method);
       figure(file, 900, 620, wrench_body(file + ".csv", "'no contact' 0, 'V-F' 4, 'E-E' 5, 'V-F in two regions' 6, 'other' 7"));
     }
     figure("steps_time", 900, 560, time_body("steps.csv", "steps_paper.csv"));
@@ -123,7 +123,8 @@ class Experiments {
       const std::string file = std::string("'") + name + ".csv'";
       figure(name, 800, 380,
              std::string("set xlabel 'time  [s]'; set ylabel '") + (is_wedge ? "place across the wedge  [mm]" : "height  [mm]") +
-                 "'; set key outside top horizontal Left reverse samplen 1.6; set xrange [0:1]\nplot " + file + " using 1:2 with lines lw 1.5 lc rgb red title 'haptic tool', " + file +
+                 "'; set key outside top horizontal Left reverse samplen 1.6; set xrange [0:1]\nplot " + file +
+                 " using 1:2 with lines lw 1.5 lc rgb red title 'haptic tool', " + file +
                  " using 1:4 with lines lw 2 dt 2 lc rgb amber title 'global solution', " + file +
                  " using 1:5 with lines lw 3.5 lc rgb green title 'paper as written', " + file +
                  " using 1:3 with lines lw 1.5 lc rgb ink title 'default'\n");
@@ -167,8 +168,8 @@ class Experiments {
     return hand.x() + side * std::max(depth, 0.0) * normal.x();
   }
 
-  std::vector<Record> simulate(const feeler::scenes::Scene& scene, const feeler::Settings<double>& settings, Method method,
-                               const std::string& file, State (*state_of)(const Record&)) {
+  std::vector<Record> simulate(const feeler::scenes::Scene& scene, const feeler::Settings<double>& settings, Method method, const std::string& file,
+                               State (*state_of)(const Record&)) {
     return note(run(scene, settings, method, scene.duration, true), method, file, state_of);
   }
 
@@ -182,10 +183,11 @@ class Experiments {
     }
     write(file, result.ticks, state_of);
     const Measures m = measure(result.ticks, stiffness);
-    std::printf("   %-18s deepest %9.3g um | force without contact %4d ticks | steps beyond the hand %6.3f mm, %6.2f N | p50 %6.1f (QP %.1f) "
-                "p99 %7.1f us, %.2f %% above 1 ms | %d switches\n",
-                file.c_str(), 1e6 * m.deepest, m.force_without_contact, 1e3 * m.pose_step, m.wrench_step, m.p50, m.optimisation_p50, m.p99,
-                100.0 * m.late_share, m.switches);
+    std::printf(
+        "   %-18s deepest %9.3g um | force without contact %4d ticks | steps beyond the hand %6.3f mm, %6.2f N | p50 %6.1f (QP %.1f) "
+        "p99 %7.1f us, %.2f %% above 1 ms | %d switches\n",
+        file.c_str(), 1e6 * m.deepest, m.force_without_contact, 1e3 * m.pose_step, m.wrench_step, m.p50, m.optimisation_p50, m.p99,
+        100.0 * m.late_share, m.switches);
     std::fflush(stdout);
     if (method == Method::standard && m.deepest > 1e-11) findings_.is_as_expected = false;
     return result.ticks;
@@ -199,8 +201,9 @@ class Experiments {
 
   void write(const std::string& name, const std::vector<Record>& ticks, State (*state_of)(const Record&)) const {
     feeler::demo::TextFile csv(folder_ / (name + ".csv"));
-    csv.print("t,haptic_px,haptic_py,haptic_pz,haptic_qw,haptic_qx,haptic_qy,haptic_qz,graphic_px,graphic_py,graphic_pz,graphic_qw,"
-              "graphic_qx,graphic_qy,graphic_qz,fx,fy,fz,tx,ty,tz,tick_us,optimisation_us,depth,truncation,contacts,regions,state,state_name\n");
+    csv.print(
+        "t,haptic_px,haptic_py,haptic_pz,haptic_qw,haptic_qx,haptic_qy,haptic_qz,graphic_px,graphic_py,graphic_pz,graphic_qw,"
+        "graphic_qx,graphic_qy,graphic_qz,fx,fy,fz,tx,ty,tz,tick_us,optimisation_us,depth,truncation,contacts,regions,state,state_name\n");
     for (const Record& r : ticks) {
       csv.print("%.17g", r.t);
       for (const auto& pose : {r.haptic, r.graphic}) {

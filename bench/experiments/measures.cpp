@@ -51,9 +51,7 @@ bool occur_in_order(const std::vector<Record>& ticks, State (*state_of)(const Re
 Measures measure(const std::vector<Record>& ticks, double stiffness) {
   constexpr double least_force = 0.01;  // [N]
   const auto metric = Metric<double>::with_length(0.01);
-  const auto length = [&](const Pose<double>& from, const Pose<double>& to) {
-    return std::sqrt(2.0 * metric.energy(motion_between(from, to)));
-  };
+  const auto length = [&](const Pose<double>& from, const Pose<double>& to) { return std::sqrt(2.0 * metric.energy(motion_between(from, to))); };
   Measures result;
   std::vector<double> total, optimisation;
   for (std::size_t i = 0; i < ticks.size(); ++i) {
@@ -80,10 +78,14 @@ Measures measure(const std::vector<Record>& ticks, double stiffness) {
 }
 
 Measures worst_of(const Measures& a, const Measures& b) {
-  return {std::max(a.deepest, b.deepest),         a.force_without_contact + b.force_without_contact,
-          std::max(a.pose_step, b.pose_step),     std::max(a.wrench_step, b.wrench_step),
-          std::max(a.p50, b.p50),                 std::max(a.p99, b.p99),
-          std::max(a.late_share, b.late_share),   std::max(a.optimisation_p50, b.optimisation_p50),
+  return {std::max(a.deepest, b.deepest),
+          a.force_without_contact + b.force_without_contact,
+          std::max(a.pose_step, b.pose_step),
+          std::max(a.wrench_step, b.wrench_step),
+          std::max(a.p50, b.p50),
+          std::max(a.p99, b.p99),
+          std::max(a.late_share, b.late_share),
+          std::max(a.optimisation_p50, b.optimisation_p50),
           a.switches + b.switches};
 }
 

@@ -27,8 +27,7 @@ inline std::array<double, 4> between(const std::vector<KeyFrame>& frames, double
     const double s = std::max(0.0, (t - frames[i - 1].time) / (frames[i].time - frames[i - 1].time));
     const double share = s * s * (3.0 - 2.0 * s);
     std::array<double, 4> result{};
-    for (std::size_t k = 0; k < 4; ++k)
-      result[k] = frames[i - 1].values[k] + share * (frames[i].values[k] - frames[i - 1].values[k]);
+    for (std::size_t k = 0; k < 4; ++k) result[k] = frames[i - 1].values[k] + share * (frames[i].values[k] - frames[i - 1].values[k]);
     return result;
   }
   return frames.back().values;
@@ -38,10 +37,9 @@ inline std::array<double, 4> between(const std::vector<KeyFrame>& frames, double
 /// @param speed  1 for five seconds; the hand turns at up to 0.9 rad/s times that
 inline scenes::Scene cavity_states(double clearance, double speed = 1.0) {
   scenes::Scene scene = scenes::cavity(clearance);
-  const std::vector<KeyFrame> frames{{0.0, {0, 0, 0, 0}},        {0.4, {0, 0, 0, 0}},        {0.9, {0, 0, 0, -0.3}},
-                                     {1.4, {0, 0, 0, 0}},        {1.6, {0, 0, 0, 0}},        {2.1, {0, 0, 0, 0.3}},
-                                     {2.6, {0, 0, 0, 0}},        {3.0, {0, -0.003, 0, 0}},   {3.6, {0.008, -0.003, 0, 0}},
-                                     {4.2, {-0.008, -0.003, 0, 0}}, {4.6, {-0.008, 0, 0, 0}}, {5.0, {-0.008, 0, 0, 0}}};
+  const std::vector<KeyFrame> frames{{0.0, {0, 0, 0, 0}},          {0.4, {0, 0, 0, 0}},           {0.9, {0, 0, 0, -0.3}},   {1.4, {0, 0, 0, 0}},
+                                     {1.6, {0, 0, 0, 0}},          {2.1, {0, 0, 0, 0.3}},         {2.6, {0, 0, 0, 0}},      {3.0, {0, -0.003, 0, 0}},
+                                     {3.6, {0.008, -0.003, 0, 0}}, {4.2, {-0.008, -0.003, 0, 0}}, {4.6, {-0.008, 0, 0, 0}}, {5.0, {-0.008, 0, 0, 0}}};
   scene.motion = [frames, speed](double t) {
     const auto v = between(frames, t * speed);
     return scenes::pose_of({0.0, 0.0, v[3]}, {v[0], v[1], v[2]});
@@ -58,11 +56,11 @@ inline scenes::Scene steps_states() {
   scene.tool = Segment<double>(Vector::Zero(), Vector(0.0, 0.0, 0.030));
   scene.tip = Vector::Zero();
   // x and z of the held end, and the angle of the line seen along y.
-  const std::vector<KeyFrame> frames{{0.0, {0.004, 0.026, 157, 0}},   {0.3, {0.004, 0.026, 157, 0}},  {0.6, {0.005, 0.0185, 157, 0}},
+  const std::vector<KeyFrame> frames{{0.0, {0.004, 0.026, 157, 0}},   {0.3, {0.004, 0.026, 157, 0}},    {0.6, {0.005, 0.0185, 157, 0}},
                                      {0.8, {0.007, 0.0185, 157, 0}},  {1.1, {0.0095, 0.01999, 157, 0}}, {1.4, {0.0125, 0.01999, 157, 0}},
-                                     {1.7, {0.0150, 0.0172, 157, 0}}, {2.0, {0.0150, 0.0172, 157, 0}},
-                                     {2.4, {0.0145, 0.0155, 100, 0}}, {2.8, {0.0150, 0.0150, 70, 0}}, {3.6, {0.0150, 0.0150, -14, 0}},
-                                     {4.0, {0.0150, 0.0150, -14, 0}}, {4.5, {0.0160, 0.0260, 0, 0}},  {5.0, {0.0160, 0.0300, 0, 0}}};
+                                     {1.7, {0.0150, 0.0172, 157, 0}}, {2.0, {0.0150, 0.0172, 157, 0}},  {2.4, {0.0145, 0.0155, 100, 0}},
+                                     {2.8, {0.0150, 0.0150, 70, 0}},  {3.6, {0.0150, 0.0150, -14, 0}},  {4.0, {0.0150, 0.0150, -14, 0}},
+                                     {4.5, {0.0160, 0.0260, 0, 0}},   {5.0, {0.0160, 0.0300, 0, 0}}};
   scene.motion = [frames](double t) {
     const auto v = between(frames, t);
     const double angle = v[2] * std::numbers::pi / 180.0;
@@ -80,9 +78,9 @@ inline scenes::Scene steps_states() {
 /// A splined shaft that is pushed 11 mm into its hole by a hand that strays from its axis, twisted both ways, and pulled out again.
 inline scenes::CompoundScene insertion(double clearance) {
   scenes::CompoundScene scene = scenes::spline(clearance);
-  const std::vector<KeyFrame> frames{{0.0, {0.016, 0, 0, 0}},       {0.3, {0.016, 0, 0, 0}},     {1.0, {0.011, 0, 0, 0}},
+  const std::vector<KeyFrame> frames{{0.0, {0.016, 0, 0, 0}},         {0.3, {0.016, 0, 0, 0}},           {1.0, {0.011, 0, 0, 0}},
                                      {1.8, {0.004, 0, 0.0005, 0.02}}, {2.3, {0.004, 0.1, 0.0005, 0.02}}, {2.9, {0.004, -0.1, 0.0005, 0.02}},
-                                     {3.3, {0.004, 0, 0, 0}},         {4.5, {0.016, 0, 0, 0}},     {5.0, {0.016, 0, 0, 0}}};
+                                     {3.3, {0.004, 0, 0, 0}},         {4.5, {0.016, 0, 0, 0}},           {5.0, {0.016, 0, 0, 0}}};
   scene.motion = [frames](double t) {
     const auto v = between(frames, t);
     return scenes::pose_of({v[3], 0.0, v[1]}, {v[2], 0.0, v[0]});

@@ -33,10 +33,10 @@ bool draw(const std::filesystem::path& folder, const std::string& name, int widt
   const std::string size = std::to_string(width) + "," + std::to_string(height);
   demo::TextFile script(folder / (name + ".gp"));
   script.write("# gnuplot " + name + ".gp draws this figure again from the files of this folder.\n");
-  script.write("set terminal svg size " + size + " enhanced font 'sans-serif,13' background rgb 'white'\nset output '" + name +
-               ".svg'\n" + style + body + "unset output\nreset\n");
-  script.write("set terminal pngcairo size " + size + " enhanced font 'DejaVu Sans,11'\nset output '" + name + ".png'\n" + style +
-               body + "unset output\n");
+  script.write("set terminal svg size " + size + " enhanced font 'sans-serif,13' background rgb 'white'\nset output '" + name + ".svg'\n" + style +
+               body + "unset output\nreset\n");
+  script.write("set terminal pngcairo size " + size + " enhanced font 'DejaVu Sans,11'\nset output '" + name + ".png'\n" + style + body +
+               "unset output\n");
   script.close();
   return demo::run_program(folder, {"gnuplot", name + ".gp"}) == 0;
 }
@@ -46,16 +46,17 @@ std::string wrench_body(const std::string& csv, const std::string& state_tics) {
          "set format x ''; set offsets 0, 0, graph 0.2, graph 0.05\n"
          "set ylabel 'force  [N]' offset 1,0\n" +
          three(csv, "F", 16, "1") + "set ylabel 'torque  [mN·m]' offset 1,0\n" + three(csv, "T", 19, "1000") +
-         "unset ylabel; set xlabel 'time  [s]'; set format x '%g'; set offsets; unset key\nset yrange [-0.5:7.5]; set ytics (" +
-         state_tics + ")\nplot '" + csv + "' using 1:28 with points pt 7 ps 0.35 lc rgb blue\nunset multiplot\n";
+         "unset ylabel; set xlabel 'time  [s]'; set format x '%g'; set offsets; unset key\nset yrange [-0.5:7.5]; set ytics (" + state_tics +
+         ")\nplot '" + csv + "' using 1:28 with points pt 7 ps 0.35 lc rgb blue\nunset multiplot\n";
 }
 
 std::string time_body(const std::string& standard_csv, const std::string& paper_csv) {
-  std::string text = "set multiplot layout 2,1 margins 0.1,0.975,0.1,0.93 spacing 0.11\nset logscale y; set yrange [0.1:10000]\n"
-                     "set ylabel 'time per tick  [µs]'; set key at graph 1, graph 1.13\n";
+  std::string text =
+      "set multiplot layout 2,1 margins 0.1,0.975,0.1,0.93 spacing 0.11\nset logscale y; set yrange [0.1:10000]\n"
+      "set ylabel 'time per tick  [µs]'; set key at graph 1, graph 1.13\n";
   for (const auto& [csv, title] : {std::pair(standard_csv, "default"), std::pair(paper_csv, "paper as written")}) {
-    text += std::string("set label 1 '") + title + "' at graph 0.0, graph 1.06\n" +
-            (csv == paper_csv ? "set xlabel 'time  [s]'\n" : "") + "plot '" + csv +
+    text += std::string("set label 1 '") + title + "' at graph 0.0, graph 1.06\n" + (csv == paper_csv ? "set xlabel 'time  [s]'\n" : "") + "plot '" +
+            csv +
             "' using 1:22 with points pt 7 ps 0.3 lc rgb blue title 'total', '' using 1:($23>0?$23:NaN) with points pt 7 ps 0.3 lc rgb "
             "amber title 'optimisation', 1000 with lines dt 2 lc rgb red title '1 ms'\n";
   }

@@ -13,9 +13,9 @@ namespace feeler::experiments {
 /// The contact methods compared: the paper as written, each correction of it alone, all of them, and the library's default.
 enum class Method { paper, hard_box, no_box, linearisations, rotation_vectors, certificate, shared_metric, all_corrections, standard };
 
-inline constexpr std::array all_methods{Method::paper,       Method::hard_box,      Method::no_box,
+inline constexpr std::array all_methods{Method::paper,          Method::hard_box,         Method::no_box,
                                         Method::linearisations, Method::rotation_vectors, Method::certificate,
-                                        Method::shared_metric, Method::all_corrections, Method::standard};
+                                        Method::shared_metric,  Method::all_corrections,  Method::standard};
 
 /// The name of a method in tables and file names.
 constexpr const char* name_of(Method method) {

@@ -130,8 +130,7 @@ Run run_method(const scenes::Setting& scene, const Tool& tool, const Settings<do
       Pose<double> from = last;
       for (const auto& to : tick.path) {
         for (const auto& piece : checked_pieces) {
-          const auto found =
-              test::deepest_penetration_on_path(checked_object, piece, test::checked_pose(from), test::checked_pose(to), 4);
+          const auto found = test::deepest_penetration_on_path(checked_object, piece, test::checked_pose(from), test::checked_pose(to), 4);
           record.depth = std::max(record.depth, double(found.depth));
         }
         from = to;
@@ -146,11 +145,8 @@ Run run_method(const scenes::Setting& scene, const Tool& tool, const Settings<do
 }  // namespace detail
 
 template <class Tool>
-Run run_with_tool(const scenes::Scene& scene, const Tool& tool, const Settings<double>& settings, Method method, double seconds,
-                  bool is_checked) {
-  const auto with = [&]<class MethodType>(MethodType) {
-    return detail::run_method<MethodType>(scene, tool, settings, seconds, is_checked);
-  };
+Run run_with_tool(const scenes::Scene& scene, const Tool& tool, const Settings<double>& settings, Method method, double seconds, bool is_checked) {
+  const auto with = [&]<class MethodType>(MethodType) { return detail::run_method<MethodType>(scene, tool, settings, seconds, is_checked); };
   switch (method) {
     case Method::hard_box: return with(CandidateContacts<detail::with_box(LocalSolution::inside_box)>{});
     case Method::no_box: return with(CandidateContacts<detail::with_box(LocalSolution::free)>{});

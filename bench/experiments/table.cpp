@@ -57,8 +57,7 @@ Arm arm_of(Method method) {
     const double slope = (a * std::sin(phi) - height) * a * std::cos(phi) + weight * (phi - angle);
     (slope < 0.0 ? low : high) = phi;
   }
-  return {std::abs(record.graphic.translation.z() - a * std::sin(low)), record.wrench.torque.norm() / record.wrench.force.norm(),
-          a * std::cos(low)};
+  return {std::abs(record.graphic.translation.z() - a * std::sin(low)), record.wrench.torque.norm() / record.wrench.force.norm(), a * std::cos(low)};
 }
 
 }  // namespace
@@ -68,10 +67,12 @@ Settings<double> stiff_settings(Method method) { return with_stiffness(method, 0
 
 void make_table(const std::filesystem::path& folder) {
   demo::TextFile csv(folder / "table.csv"), text(folder / "table.md");
-  csv.print("method,deepest_um,lag_10_mm,lag_30_mm,lag_45_mm,lag_60_mm,closed_form_error_um,pose_step_mm,wrench_step_N,arm_felt_m,"
-            "arm_real_m,force_without_contact_ticks,p50_us,p99_us\n");
-  text.print("| method | deepest [µm] | behind on 10°, 30°, 45°, 60° [mm] | error [µm] | pose step [mm] | force step [N] | arm felt (real) [m] "
-             "| force without contact [ticks] | p50, p99 [µs] |\n|---|---|---|---|---|---|---|---|---|\n");
+  csv.print(
+      "method,deepest_um,lag_10_mm,lag_30_mm,lag_45_mm,lag_60_mm,closed_form_error_um,pose_step_mm,wrench_step_N,arm_felt_m,"
+      "arm_real_m,force_without_contact_ticks,p50_us,p99_us\n");
+  text.print(
+      "| method | deepest [µm] | behind on 10°, 30°, 45°, 60° [mm] | error [µm] | pose step [mm] | force step [N] | arm felt (real) [m] "
+      "| force without contact [ticks] | p50, p99 [µs] |\n|---|---|---|---|---|---|---|---|---|\n");
   for (const Method method : all_methods) {
     const auto cavity = cavity_states(1e-3), steps = steps_states(), hand = scenes::steps();
     Measures worst = measure(run(cavity, paper_settings(method), method, cavity.duration, true).ticks, 1000.0);
@@ -82,16 +83,16 @@ void make_table(const std::filesystem::path& folder) {
     for (int i = 0; i < 4; ++i) lag[i] = 1e3 * lag_on_slope(method, slopes[i]);
     const Arm arm = arm_of(method);
     const char* name = name_of(method);
-    csv.print("%s,%.6g,%.6g,%.6g,%.6g,%.6g,%.6g,%.6g,%.6g,%.6g,%.6g,%d,%.4g,%.4g\n", name, 1e6 * worst.deepest, lag[0], lag[1], lag[2],
-              lag[3], 1e6 * arm.error, 1e3 * worst.pose_step, worst.wrench_step, arm.felt, arm.real, worst.force_without_contact,
-              worst.p50, worst.p99);
-    text.print("| %s | %.3g | %.3f, %.3f, %.3f, %.3f | %.3g | %.2f | %.2f | %.4f (%.4f) | %d | %.1f, %.0f |\n", name, 1e6 * worst.deepest,
-               lag[0], lag[1], lag[2], lag[3], 1e6 * arm.error, 1e3 * worst.pose_step, worst.wrench_step, arm.felt, arm.real,
-               worst.force_without_contact, worst.p50, worst.p99);
-    std::printf("%-20s deepest %9.3g um | behind %.3f %.3f %.3f %.3f mm | error %.3g um | steps %.2f mm %.2f N | arm %.4f of %.4f m | "
-                "no contact %d | %.1f %.0f us\n",
-                name, 1e6 * worst.deepest, lag[0], lag[1], lag[2], lag[3], 1e6 * arm.error, 1e3 * worst.pose_step, worst.wrench_step,
-                arm.felt, arm.real, worst.force_without_contact, worst.p50, worst.p99);
+    csv.print("%s,%.6g,%.6g,%.6g,%.6g,%.6g,%.6g,%.6g,%.6g,%.6g,%.6g,%d,%.4g,%.4g\n", name, 1e6 * worst.deepest, lag[0], lag[1], lag[2], lag[3],
+              1e6 * arm.error, 1e3 * worst.pose_step, worst.wrench_step, arm.felt, arm.real, worst.force_without_contact, worst.p50, worst.p99);
+    text.print("| %s | %.3g | %.3f, %.3f, %.3f, %.3f | %.3g | %.2f | %.2f | %.4f (%.4f) | %d | %.1f, %.0f |\n", name, 1e6 * worst.deepest, lag[0],
+               lag[1], lag[2], lag[3], 1e6 * arm.error, 1e3 * worst.pose_step, worst.wrench_step, arm.felt, arm.real, worst.force_without_contact,
+               worst.p50, worst.p99);
+    std::printf(
+        "%-20s deepest %9.3g um | behind %.3f %.3f %.3f %.3f mm | error %.3g um | steps %.2f mm %.2f N | arm %.4f of %.4f m | "
+        "no contact %d | %.1f %.0f us\n",
+        name, 1e6 * worst.deepest, lag[0], lag[1], lag[2], lag[3], 1e6 * arm.error, 1e3 * worst.pose_step, worst.wrench_step, arm.felt, arm.real,
+        worst.force_without_contact, worst.p50, worst.p99);
     std::fflush(stdout);
   }
   csv.close();

@@ -18,7 +18,8 @@ namespace {
 using study::Wide;
 
 bool is_finite(const study::Reading& reading) {
-  return reading.pose.translation.allFinite() && reading.pose.rotation.coeffs().allFinite() && std::abs(reading.pose.rotation.norm() - 1) < 1e-5L && reading.force.allFinite() && reading.torque.allFinite();
+  return reading.pose.translation.allFinite() && reading.pose.rotation.coeffs().allFinite() && std::abs(reading.pose.rotation.norm() - 1) < 1e-5L &&
+         reading.force.allFinite() && reading.torque.allFinite();
 }
 
 std::string text(const char* format, double a, double b) {
@@ -47,7 +48,8 @@ Finding try_case(const Case& one, const std::string& rendering) {
   std::unique_ptr<study::Player> player;
   try {
     player = study::rendering(rendering).make(scene, {.scene = one.name, .rendering = rendering, .margin = one.margin});
-    if (const auto status = player->reset(scene.start); status != TickStatus::converged) finding.refusal = "reset: the tool overlaps the object where it starts";
+    if (const auto status = player->reset(scene.start); status != TickStatus::converged)
+      finding.refusal = "reset: the tool overlaps the object where it starts";
   } catch (const std::exception& refusal) {
     finding.refusal = refusal.what();
   }
@@ -96,7 +98,8 @@ Finding try_case(const Case& one, const std::string& rendering) {
   const double reach = scene.vertices.cwiseAbs().maxCoeff() + truth.radius();
   const double allowed = one.distance_allowed + (rendering == "float" ? 40 * double(std::numeric_limits<float>::epsilon()) * reach : 0);
   if (finding.distance < 0 && finding.fault.empty()) finding.fault = "no nearest pose is proved";
-  if (!(finding.distance <= allowed) && finding.fault.empty()) finding.fault = text("%.2g m off the nearest pose; %g m is allowed", finding.distance, allowed);
+  if (!(finding.distance <= allowed) && finding.fault.empty())
+    finding.fault = text("%.2g m off the nearest pose; %g m is allowed", finding.distance, allowed);
   return finding;
 }
 

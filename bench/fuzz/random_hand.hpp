@@ -32,10 +32,8 @@ class RandomHand {
 
   void move() {
     switch (kind_) {
-      case Kind::slow:
-        return drift(1e-4);
-      case Kind::fast:
-        return drift(1e-3);
+      case Kind::slow: return drift(1e-4);
+      case Kind::fast: return drift(1e-3);
       case Kind::leaping:
         leap(1);
         pose_.rotation = random_rotation(bits_);

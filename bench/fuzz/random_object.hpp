@@ -33,10 +33,9 @@ class RandomObject {
   /// One of the kinds below.
   explicit RandomObject(std::mt19937& bits) {
     using Kind = void (RandomObject::*)(std::mt19937&);
-    constexpr std::array<Kind, 12> kinds{
-        &RandomObject::plate,      &RandomObject::soup,         &RandomObject::slivers, &RandomObject::terrain,
-        &RandomObject::spikes,     &RandomObject::groove,       &RandomObject::boxes,   &RandomObject::plate_of_slivers,
-        &RandomObject::slot,       &RandomObject::room,         &RandomObject::wires,   &RandomObject::edge};
+    constexpr std::array<Kind, 12> kinds{&RandomObject::plate,  &RandomObject::soup,   &RandomObject::slivers, &RandomObject::terrain,
+                                         &RandomObject::spikes, &RandomObject::groove, &RandomObject::boxes,   &RandomObject::plate_of_slivers,
+                                         &RandomObject::slot,   &RandomObject::room,   &RandomObject::wires,   &RandomObject::edge};
     (this->*kinds[std::size_t(below(bits, int(kinds.size())))])(bits);
   }
 
@@ -60,7 +59,9 @@ class RandomObject {
     triangle(a, c, d);
   }
   void box(const Vector& low, const Vector& high) {
-    const auto corner = [&](int i) { return Vector((i & 1) != 0 ? high.x() : low.x(), (i & 2) != 0 ? high.y() : low.y(), (i & 4) != 0 ? high.z() : low.z()); };
+    const auto corner = [&](int i) {
+      return Vector((i & 1) != 0 ? high.x() : low.x(), (i & 2) != 0 ? high.y() : low.y(), (i & 4) != 0 ? high.z() : low.z());
+    };
     for (const auto& side : std::array<std::array<int, 4>, 6>{{{0, 4, 6, 2}, {1, 3, 7, 5}, {0, 1, 5, 4}, {2, 6, 7, 3}, {0, 2, 3, 1}, {4, 5, 7, 6}}})
       quad(corner(side[0]), corner(side[1]), corner(side[2]), corner(side[3]));
   }
@@ -124,8 +125,7 @@ class RandomObject {
   void groove(std::mt19937& bits) {
     name = "groove or ridge";
     const double slope = magnitude(bits, -3, 0) * (below(bits, 2) == 0 ? 1 : -1);
-    for (const double side : {-0.1, 0.1})
-      quad({0, -0.1, 0}, {side, -0.1, 0.1 * slope}, {side, 0.1, 0.1 * slope}, {0, 0.1, 0});
+    for (const double side : {-0.1, 0.1}) quad({0, -0.1, 0}, {side, -0.1, 0.1 * slope}, {side, 0.1, 0.1 * slope}, {0, 0.1, 0});
   }
   void boxes(std::mt19937& bits) {
     name = "boxes";

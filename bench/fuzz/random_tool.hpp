@@ -37,7 +37,8 @@ inline ConvexPolytope<double> random_polytope(std::mt19937& bits, const Vector& 
     const Vector half = random_extents(bits);
     const int count = 4 + below(bits, below(bits, 3) > 0 ? 20 : 246);
     try {
-      if (below(bits, 8) == 0) return cylinder<double>(half.x(), half.z(), 3 + below(bits, 60), below(bits, 2) == 0 ? Facets::inscribed : Facets::circumscribed);
+      if (below(bits, 8) == 0)
+        return cylinder<double>(half.x(), half.z(), 3 + below(bits, 60), below(bits, 2) == 0 ? Facets::inscribed : Facets::circumscribed);
       if (below(bits, 8) == 0) return cone<double>(half.x(), half.z(), 3 + below(bits, 120));
       Points<double> points(count, 3);
       const bool is_lattice = below(bits, 3) == 0;

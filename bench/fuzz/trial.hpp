@@ -33,7 +33,9 @@ inline Settings<double> random_settings(std::mt19937& bits, bool is_about_centre
   if (one_in(3)) settings.trust_radius = magnitude(bits, -5, -2);
   if (one_in(5)) settings.maximum_iterations = 1 + below(bits, 40);
   if (one_in(3) && !is_about_centre) settings.reference_point = magnitude(bits, -3, -0.5) * random_direction(bits);
-  const auto weights = [&](double low, double high) { return Vector(magnitude(bits, low, high), magnitude(bits, low, high), magnitude(bits, low, high)); };
+  const auto weights = [&](double low, double high) {
+    return Vector(magnitude(bits, low, high), magnitude(bits, low, high), magnitude(bits, low, high));
+  };
   if (one_in(5)) settings.stiffness = Stiffness<double>::uniform(1000, magnitude(bits, -4, 2));
   if (one_in(5)) settings.stiffness = {weights(2, 4), weights(-2, 1)};
   if (one_in(5)) settings.metric = Metric<double>{weights(-1, 1), weights(-5, -2)};
@@ -45,7 +47,8 @@ template <class Tool>
 class Trial {
  public:
   /// @param bits  decides everything; the tool is made of them before
-  Trial(std::mt19937& bits, const Tool& tool) : bits_(bits), tool_(tool), object_(bits), settings_(random_settings(bits, symmetry_of<Tool> == Symmetry::about_point)) {
+  Trial(std::mt19937& bits, const Tool& tool)
+      : bits_(bits), tool_(tool), object_(bits), settings_(random_settings(bits, symmetry_of<Tool> == Symmetry::about_point)) {
     if (below(bits, 5) < 2) placed_.rotation = random_rotation(bits);
     if (below(bits, 7) == 0) placed_.translation = magnitude(bits, -1, 3) * random_direction(bits);
     object_.place(placed_.rotation, placed_.translation);
@@ -101,7 +104,8 @@ class Trial {
     if ((tick.status == Status::not_finite) == haptic.is_finite()) return complain("a status about the device is false");
     if (tick.path.empty() && !test::is_same(before, pose)) return complain("the tool moved off its path");
     const int budget = settings_.work_budget;
-    if (budget >= 20 && !test::keeps_budget(tick.work, budget)) complain(std::to_string(tick.work) + " units of work with a budget of " + std::to_string(budget));
+    if (budget >= 20 && !test::keeps_budget(tick.work, budget))
+      complain(std::to_string(tick.work) + " units of work with a budget of " + std::to_string(budget));
     Pose<double> from = before;
     for (const Pose<double>& to : tick.path) {
       check_leg(from, to, tick.path.size() > 3 ? 3 : 7);
@@ -134,10 +138,13 @@ class Trial {
   }
 
   /// Whether a corner of the tool passes through a triangle between two shares of a leg: its chord does, and that of a half, and so on.
-  bool crosses(const Pose<double>& from, const Pose<double>& to, const test::WideVector& vertex, test::WideReal begin, test::WideReal end, int depth) const {
+  bool crosses(const Pose<double>& from, const Pose<double>& to, const test::WideVector& vertex, test::WideReal begin, test::WideReal end,
+               int depth) const {
     const test::CheckedPose first = on_leg(from, to, begin), last = on_leg(from, to, end);
     const test::WideVector p = first.translation + first.rotation * vertex, q = last.translation + last.rotation * vertex;
-    const auto volume = [](const test::WideVector& a, const test::WideVector& b, const test::WideVector& c, const test::WideVector& d) { return (b - a).cross(c - a).dot(d - a); };
+    const auto volume = [](const test::WideVector& a, const test::WideVector& b, const test::WideVector& c, const test::WideVector& d) {
+      return (b - a).cross(c - a).dot(d - a);
+    };
     bool is_through = false;
     for (int i = 0; i < int(checked_->triangles.rows()) && !is_through; ++i) {
       const test::WideVector a = checked_->corner(i, 0), b = checked_->corner(i, 1), c = checked_->corner(i, 2);

@@ -21,9 +21,7 @@ inline std::uint64_t arithmetic() {
   const auto within = [&](double largest) { return largest * (2.0 * random.unit() - 1.0); };
   for (int i = 0; i < 20000; ++i) {
     const double x = within(4.0), y = within(4.0), z = within(4.0);
-    for (const double value :
-         {std::sin(x), std::cos(x), std::tan(x), std::atan2(x, y), std::exp(x), x * y + z})
-      hash.add(value);
+    for (const double value : {std::sin(x), std::cos(x), std::tan(x), std::atan2(x, y), std::exp(x), x * y + z}) hash.add(value);
     const Eigen::Matrix4d square = Eigen::Matrix4d::Identity() * x + Eigen::Matrix4d::Constant(z);
     hash.add(Eigen::Vector4d(square * Eigen::Vector4d(x, y, z, x - y)));
   }

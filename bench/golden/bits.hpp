@@ -12,13 +12,11 @@ class BitHash {
  public:
   /// Both zeros count as one: which of them a sum ends at is no part of a trajectory, and rewriting a − b as
   /// −(b − a) changes it.
-  void add(std::floating_point auto value) noexcept {
-    add_word(std::bit_cast<std::uint64_t>(value == 0 ? 0.0 : double(value)));
-  }
+  void add(std::floating_point auto value) noexcept { add_word(std::bit_cast<std::uint64_t>(value == 0 ? 0.0 : double(value))); }
   void add(std::integral auto value) noexcept { add_word(std::uint64_t(value)); }
   /// All numbers of an array of Eigen's.
   template <class Numbers>
-  requires requires(const Numbers& numbers) { numbers.reshaped(); }
+    requires requires(const Numbers& numbers) { numbers.reshaped(); }
   void add(const Numbers& numbers) noexcept {
     for (const auto value : numbers.reshaped()) add(value);
   }

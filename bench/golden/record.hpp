@@ -35,10 +35,7 @@ inline std::string golden_head(std::uint64_t arithmetic) {
       << "# They hold for this arithmetic (docs/numerics.md):\n"
       << hexadecimal(arithmetic) << " arithmetic\n#";
   for (const Hand& hand : golden_hands) {
-    out << hand.name
-        << std::string(
-               16 - std::char_traits<char>::length(hand.name) - (&hand == golden_hands.data() ? 1 : 0), ' ')
-        << ' ';
+    out << hand.name << std::string(16 - std::char_traits<char>::length(hand.name) - (&hand == golden_hands.data() ? 1 : 0), ' ') << ' ';
   }
   out << "scene\n";
   return out.str();
@@ -70,13 +67,10 @@ inline GoldenRecord read_golden_record(const std::filesystem::path& file) {
       record.scenes[label] = hashes;
     }
     if (!is_understood)
-      throw std::runtime_error(file.string() + ": cannot be read at \"" + line +
-                               "\"; write it again: feeler-replay --hash > " + file.string());
+      throw std::runtime_error(file.string() + ": cannot be read at \"" + line + "\"; write it again: feeler-replay --hash > " + file.string());
   }
   if (!has_arithmetic)
-    throw std::runtime_error(file.string() +
-                             ": is not there or holds no trajectories; write it: feeler-replay --hash > " +
-                             file.string());
+    throw std::runtime_error(file.string() + ": is not there or holds no trajectories; write it: feeler-replay --hash > " + file.string());
   return record;
 }
 

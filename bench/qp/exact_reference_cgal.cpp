@@ -11,8 +11,7 @@ std::optional<Vector6<double>> exact_optimum(const QpProblem<double>& problem) {
   CGAL::Quadratic_program<double> program(CGAL::LARGER, false, 0, false,
                                           0);  // rows ≥, variables without bounds
   for (int i = 0; i < 6; ++i) {
-    for (int j = 0; j <= i; ++j)
-      program.set_d(i, j, problem.hessian(i, j));  // twice the matrix of the quadratic form
+    for (int j = 0; j <= i; ++j) program.set_d(i, j, problem.hessian(i, j));  // twice the matrix of the quadratic form
     program.set_c(i, problem.gradient[i]);
   }
   for (int k = 0; k < problem.row_count; ++k) {
@@ -25,13 +24,10 @@ std::optional<Vector6<double>> exact_optimum(const QpProblem<double>& problem) {
   if (!solution.is_optimal()) return std::nullopt;
   Vector6<double> step;
   int i = 0;
-  for (auto value = solution.variable_values_begin(); value != solution.variable_values_end(); ++value)
-    step[i++] = CGAL::to_double(*value);
+  for (auto value = solution.variable_values_begin(); value != solution.variable_values_end(); ++value) step[i++] = CGAL::to_double(*value);
   return step;
 }
 
-const char* exact_solver_name() {
-  return "CGAL " CGAL_VERSION_STR ", exact rational arithmetic";
-}
+const char* exact_solver_name() { return "CGAL " CGAL_VERSION_STR ", exact rational arithmetic"; }
 
 }  // namespace feeler::qp_families

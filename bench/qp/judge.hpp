@@ -28,8 +28,7 @@ enum class Verdict {
 /// need a step of more than 10 m count as infeasible.
 class Judge {
  public:
-  Judge(const QpProblem<double>& problem, double metres_per_unit)
-      : problem_(problem), unit_(metres_per_unit), exact_(exact_optimum(problem)) {}
+  Judge(const QpProblem<double>& problem, double metres_per_unit) : problem_(problem), unit_(metres_per_unit), exact_(exact_optimum(problem)) {}
 
   /// Right is: rows met to twice the tolerance, and the step within 500 tolerances of the exact optimum, of
   /// this problem or of the one whose bounds go through the step where they are that near to it.
@@ -38,16 +37,14 @@ class Judge {
     distance_ = exact_ ? distance(solution.step, *exact_) : std::numeric_limits<double>::quiet_NaN();
     if (status == QpStatus::iteration_limit) return Verdict::undecided;
     if (status == QpStatus::not_positive_definite) return Verdict::falsely_infeasible;
-    if (status == QpStatus::infeasible)
-      return is_out_of_reach() ? Verdict::right : Verdict::falsely_infeasible;
+    if (status == QpStatus::infeasible) return is_out_of_reach() ? Verdict::right : Verdict::falsely_infeasible;
     const double size = 1.0 + solution.step.head<3>().norm() * unit_;
     const double give = 2.0 * tolerance * size;
     if (!(violation(solution.step) <= give)) return Verdict::wrong;
     const double accepted = 500.0 * tolerance * size;
     if (exact_ && distance_ <= accepted) return Verdict::right;
     const auto further = exact_optimum(seen_from(solution.step, give));
-    return further && distance(*further, Vector6<double>::Zero()) <= accepted ? Verdict::right
-                                                                              : Verdict::wrong;
+    return further && distance(*further, Vector6<double>::Zero()) <= accepted ? Verdict::right : Verdict::wrong;
   }
 
   /// Of the step last judged from the exact optimum, in the metric of the problem [m]; NaN where there is no
@@ -61,9 +58,7 @@ class Judge {
   QpProblem<double> seen_from(const Vector6<double>& step, double give) const {
     QpProblem<double> rest = problem_;
     const auto wide_step = step.cast<long double>();
-    rest.gradient =
-        (problem_.hessian.cast<long double>() * wide_step + problem_.gradient.cast<long double>())
-            .cast<double>();
+    rest.gradient = (problem_.hessian.cast<long double>() * wide_step + problem_.gradient.cast<long double>()).cast<double>();
     for (int k = 0; k < problem_.row_count; ++k) {
       const double missing = missing_at(step, k);
       rest.bounds[std::size_t(k)] = std::abs(missing) * unit_ <= give ? 0.0 : missing;
@@ -94,8 +89,7 @@ class Judge {
 
   double distance(const Vector6<double>& a, const Vector6<double>& b) const {
     const Vector6<double> off = a - b;
-    return std::sqrt(off.dot(problem_.hessian * off) / problem_.hessian.diagonal().head<3>().maxCoeff()) *
-           unit_;
+    return std::sqrt(off.dot(problem_.hessian * off) / problem_.hessian.diagonal().head<3>().maxCoeff()) * unit_;
   }
 
   QpProblem<double> problem_;

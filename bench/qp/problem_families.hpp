@@ -75,9 +75,7 @@ class ContactProblem {
 };
 
 /// A point on a tool of 3 cm.
-inline Vector random_arm(std::mt19937& bits) {
-  return 0.03 * feeler_test::random_vector(bits);
-}
+inline Vector random_arm(std::mt19937& bits) { return 0.03 * feeler_test::random_vector(bits); }
 /// Half of the contacts touch, the others are up to `most` away.
 inline double random_gap(std::mt19937& bits, double most = 1e-4) {
   return feeler_test::below(bits, 2) == 0 ? 0.0 : most * feeler_test::fraction(bits);
@@ -86,8 +84,7 @@ inline double random_gap(std::mt19937& bits, double most = 1e-4) {
 /// The walls y = ±clearance/2 of a slot and its floor, at four corners of a box each.
 inline void add_slot(ContactProblem& problem, double clearance) {
   auto& bits = problem.bits();
-  const Vector half =
-      Vector(0.03, 0.006, 0.02) + 0.01 * Vector(feeler_test::unit(bits), 0, feeler_test::unit(bits));
+  const Vector half = Vector(0.03, 0.006, 0.02) + 0.01 * Vector(feeler_test::unit(bits), 0, feeler_test::unit(bits));
   const double offset = 0.5 * clearance * feeler_test::unit(bits);  // of the box from the middle
   for (const double x : {-half.x(), half.x()}) {
     for (const double z : {-half.z(), half.z()}) {
@@ -105,8 +102,7 @@ inline void add_pin(ContactProblem& problem, double clearance) {
   for (int corner = 0; corner < 8; ++corner) {
     Vector arm = half;
     for (int i = 0; i < 3; ++i) arm[i] *= (corner >> i & 1) != 0 ? 1.0 : -1.0;
-    for (int i = 0; i < 3; ++i)
-      problem.contact(arm[i] > 0 ? Vector(-Vector::Unit(i)) : Vector(Vector::Unit(i)), arm, 0.5 * clearance);
+    for (int i = 0; i < 3; ++i) problem.contact(arm[i] > 0 ? Vector(-Vector::Unit(i)) : Vector(Vector::Unit(i)), arm, 0.5 * clearance);
   }
 }
 
@@ -117,15 +113,13 @@ inline void add_peg(ContactProblem& problem, int contacts, double clearance, dou
     const double angle = 2.0 * 3.14159265358979 * (2 * (i / 2) + 0.5) / contacts + phase;
     const Vector outward(std::cos(angle), std::sin(angle), 0.0);
     const double height = i % 2 == 0 ? length : -length;
-    problem.contact(-outward, radius * outward + height * Vector::UnitZ(),
-                    clearance * (1.0 - 0.9 * std::cos(angle - phase)));
+    problem.contact(-outward, radius * outward + height * Vector::UnitZ(), clearance * (1.0 - 0.9 * std::cos(angle - phase)));
   }
 }
 
 inline void add_random(ContactProblem& problem, int contacts, double most_gap = 1e-4) {
   for (int i = 0; i < contacts; ++i)
-    problem.contact(feeler_test::random_direction(problem.bits()), random_arm(problem.bits()),
-                    random_gap(problem.bits(), most_gap));
+    problem.contact(feeler_test::random_direction(problem.bits()), random_arm(problem.bits()), random_gap(problem.bits(), most_gap));
 }
 
 /// A family: its name, its unit, and a function that appends a problem, or a sequence of ticks at 1 kHz.
@@ -181,23 +175,13 @@ inline const std::vector<Family>& all_families() {
        }},
       {"slot-1mm", 1, false, [](Bits b, Out out) { make(b, out, [](auto& p) { add_slot(p, 1e-3); }); }},
       {"slot-1um", 1, false, [](Bits b, Out out) { make(b, out, [](auto& p) { add_slot(p, 1e-6); }); }},
-      {"slot-0", 1, false,
-       [](Bits b, Out out) {
-         make(
-             b, out, [](auto& p) { add_slot(p, 0); }, false);
-       }},
+      {"slot-0", 1, false, [](Bits b, Out out) { make(b, out, [](auto& p) { add_slot(p, 0); }, false); }},
       {"slot-0-turned", 1, false, [](Bits b, Out out) { make(b, out, [](auto& p) { add_slot(p, 0); }); }},
-      {"pin-0", 1, false,
-       [](Bits b, Out out) {
-         make(
-             b, out, [](auto& p) { add_pin(p, 0); }, false);
-       }},
+      {"pin-0", 1, false, [](Bits b, Out out) { make(b, out, [](auto& p) { add_pin(p, 0); }, false); }},
       {"pin-1um", 1, false, [](Bits b, Out out) { make(b, out, [](auto& p) { add_pin(p, 1e-6); }); }},
       {"peg-50", 1, false, [](Bits b, Out out) { make(b, out, [](auto& p) { add_peg(p, 50, 1e-4, 0.1); }); }},
-      {"peg-100", 1, false,
-       [](Bits b, Out out) { make(b, out, [](auto& p) { add_peg(p, 100, 1e-4, 0.1); }); }},
-      {"peg-200", 1, false,
-       [](Bits b, Out out) { make(b, out, [](auto& p) { add_peg(p, 200, 1e-4, 0.1); }); }},
+      {"peg-100", 1, false, [](Bits b, Out out) { make(b, out, [](auto& p) { add_peg(p, 100, 1e-4, 0.1); }); }},
+      {"peg-200", 1, false, [](Bits b, Out out) { make(b, out, [](auto& p) { add_peg(p, 200, 1e-4, 0.1); }); }},
       {"edges-parallel", 1, false,
        [](Bits b, Out out) {
          make(b, out, [](auto& p) {
@@ -249,9 +233,7 @@ inline const std::vector<Family>& all_families() {
        [](Bits b, Out out) {
          make(b, out, [](auto& p) {
            p.weigh(Vector6<double>::Ones());
-           for (int i = 0; i < 20; ++i)
-             p.contact(feeler_test::random_direction(p.bits()), 1e-2 * random_arm(p.bits()),
-                       random_gap(p.bits(), 1e-7));
+           for (int i = 0; i < 20; ++i) p.contact(feeler_test::random_direction(p.bits()), 1e-2 * random_arm(p.bits()), random_gap(p.bits(), 1e-7));
          });
        }},
       {"gaps-1nm", 1, false,
@@ -266,18 +248,14 @@ inline const std::vector<Family>& all_families() {
          make(b, out, [](auto& p) {
            const Vector up = Vector::UnitZ();  // all contacts from one side: penetration can be left
            for (int i = 0; i < 16; ++i)
-             p.contact((feeler_test::random_direction(p.bits()) + 1.5 * up).normalized(),
-                       random_arm(p.bits()),
+             p.contact((feeler_test::random_direction(p.bits()) + 1.5 * up).normalized(), random_arm(p.bits()),
                        i % 3 == 0 ? -1e-6 * feeler_test::fraction(p.bits()) : random_gap(p.bits()));
          });
        }},
       {"infeasible", 1, false, [](Bits b, Out out) { make(b, out, [](auto& p) { add_slot(p, -1e-6); }); }},
-      {"ticks-slot", 1, true,
-       [](Bits b, Out out) { append_ticks(b, out, [](auto& p) { add_slot(p, 1e-4); }); }},
-      {"ticks-slot-0", 1, true,
-       [](Bits b, Out out) { append_ticks(b, out, [](auto& p) { add_slot(p, 0); }); }},
-      {"ticks-peg", 1, true,
-       [](Bits b, Out out) { append_ticks(b, out, [](auto& p) { add_peg(p, 64, 1e-4, 0.3); }); }},
+      {"ticks-slot", 1, true, [](Bits b, Out out) { append_ticks(b, out, [](auto& p) { add_slot(p, 1e-4); }); }},
+      {"ticks-slot-0", 1, true, [](Bits b, Out out) { append_ticks(b, out, [](auto& p) { add_slot(p, 0); }); }},
+      {"ticks-peg", 1, true, [](Bits b, Out out) { append_ticks(b, out, [](auto& p) { add_peg(p, 64, 1e-4, 0.3); }); }},
   };
   return families;
 }

@@ -15,8 +15,7 @@ namespace feeler::rivals {
 class Arena {
  public:
   template <RigidTool Tool>
-  Arena(const scenes::Setting& setting, const Tool& tool, double clearance, double tick_seconds,
-        bool has_rivals = true)
+  Arena(const scenes::Setting& setting, const Tool& tool, double clearance, double tick_seconds, bool has_rivals = true)
       : setting_(setting),
         elsewhere_(out_of_reach(setting)),
         scene_(coupled_scene(setting_, tool, clearance)),
@@ -37,23 +36,16 @@ class Arena {
     contest_.free_tools.push_back(make_feeler_tool(far_object_, tool, elsewhere_));
     if (!has_rivals) return;
     for (auto& engine : make_engines(scene_, tick_seconds)) contest_.tools.push_back(std::move(engine));
-    for (auto& engine : make_engines(free_scene_, tick_seconds))
-      contest_.free_tools.push_back(std::move(engine));
+    for (auto& engine : make_engines(free_scene_, tick_seconds)) contest_.free_tools.push_back(std::move(engine));
 #ifdef FEELER_HAS_FCL
-    contest_.distance = [query = std::make_shared<FclDistance>(scene_)](const Pose<double>& pose) {
-      return (*query)(pose);
-    };
+    contest_.distance = [query = std::make_shared<FclDistance>(scene_)](const Pose<double>& pose) { return (*query)(pose); };
 #endif
   }
   Arena(const Arena&) = delete;
   Arena& operator=(const Arena&) = delete;
 
-  Contest& contest() {
-    return contest_;
-  }
-  const CoupledScene& scene() const {
-    return scene_;
-  }
+  Contest& contest() { return contest_; }
+  const CoupledScene& scene() const { return scene_; }
 
  private:
   /// The scene with one triangle 100 m away for an object.

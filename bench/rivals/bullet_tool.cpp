@@ -8,8 +8,7 @@
 #include "rivals/spring_coupling.hpp"
 
 #ifndef BT_USE_DOUBLE_PRECISION
-#error \
-    "Feeler is compared in double precision: define BT_USE_DOUBLE_PRECISION and link a Bullet that was built with it."
+#error "Feeler is compared in double precision: define BT_USE_DOUBLE_PRECISION and link a Bullet that was built with it."
 #endif
 
 namespace feeler::rivals {
@@ -41,20 +40,17 @@ class BulletTool final : public CoupledTool {
     for (Eigen::Index i = 0; i < setting.triangles.rows(); ++i) {
       for (int k = 0; k < 3; ++k) indices_.push_back(setting.triangles(i, k));
     }
-    triangles_ = std::make_unique<btTriangleIndexVertexArray>(int(indices_.size() / 3), indices_.data(),
-                                                              int(3 * sizeof(int)), int(vertices_.size() / 3),
-                                                              vertices_.data(), int(3 * sizeof(btScalar)));
+    triangles_ = std::make_unique<btTriangleIndexVertexArray>(int(indices_.size() / 3), indices_.data(), int(3 * sizeof(int)),
+                                                              int(vertices_.size() / 3), vertices_.data(), int(3 * sizeof(btScalar)));
     object_shape_ = std::make_unique<btBvhTriangleMeshShape>(triangles_.get(), true);
     object_shape_->setMargin(0.0);
-    object_ = std::make_unique<btRigidBody>(
-        btRigidBody::btRigidBodyConstructionInfo(0.0, nullptr, object_shape_.get()));
+    object_ = std::make_unique<btRigidBody>(btRigidBody::btRigidBodyConstructionInfo(0.0, nullptr, object_shape_.get()));
     make_frictionless(*object_);
     world_.addRigidBody(object_.get());
 
     for (const auto& points : scene.pieces) {
       auto hull = std::make_unique<btConvexHullShape>();
-      for (Eigen::Index i = 0; i < points.rows(); ++i)
-        hull->addPoint(scaled(points.row(i).transpose()), false);
+      for (Eigen::Index i = 0; i < points.rows(); ++i) hull->addPoint(scaled(points.row(i).transpose()), false);
       hull->recalcLocalAabb();
       hull->setMargin(settings_.margin * settings_.scale);
       hulls_.push_back(std::move(hull));
@@ -66,8 +62,8 @@ class BulletTool final : public CoupledTool {
       shape = &compound_;
     }
     const double inertia = settings_.coupling.inertia * settings_.scale * settings_.scale;
-    body_ = std::make_unique<btRigidBody>(btRigidBody::btRigidBodyConstructionInfo(
-        settings_.coupling.mass, nullptr, shape, btVector3(inertia, inertia, inertia)));
+    body_ = std::make_unique<btRigidBody>(
+        btRigidBody::btRigidBodyConstructionInfo(settings_.coupling.mass, nullptr, shape, btVector3(inertia, inertia, inertia)));
     body_->setActivationState(DISABLE_DEACTIVATION);
     make_frictionless(*body_);
     world_.addRigidBody(body_.get());
@@ -115,14 +111,12 @@ class BulletTool final : public CoupledTool {
     for (int i = 0; i < settings_.substeps; ++i) {
       // With the velocity fed forward, the spring acts on where the device is as the step begins: a body at
       // the device's velocity has no lag.
-      pull_towards(settings_.coupling.feeds_velocity_forward ? device_.pose(double(i) / settings_.substeps)
-                                                             : haptic_pose);
+      pull_towards(settings_.coupling.feeds_velocity_forward ? device_.pose(double(i) / settings_.substeps) : haptic_pose);
       world_.stepSimulation(step, 0, step);
       path_.push_back(pose());
     }
     const Pose<double>& body = path_.back();
-    return {body, settings_.coupling.spring_on_hand(body, haptic_pose),
-            settings_.coupling.damper_on_hand(velocity(), device_.velocity()), path_};
+    return {body, settings_.coupling.spring_on_hand(body, haptic_pose), settings_.coupling.damper_on_hand(velocity(), device_.velocity()), path_};
   }
 
  private:
@@ -131,19 +125,14 @@ class BulletTool final : public CoupledTool {
     body.setRestitution(0.0);
     body.setDamping(0.0, 0.0);
   }
-  btVector3 scaled(const Vector3<double>& v) const {
-    return {v.x() * settings_.scale, v.y() * settings_.scale, v.z() * settings_.scale};
-  }
+  btVector3 scaled(const Vector3<double>& v) const { return {v.x() * settings_.scale, v.y() * settings_.scale, v.z() * settings_.scale}; }
   static Vector3<double> vector(const btVector3& v) { return {v.x(), v.y(), v.z()}; }
   Pose<double> pose() const {
     const btTransform& transform = body_->getWorldTransform();
     const btQuaternion q = transform.getRotation();
-    return {vector(transform.getOrigin()) / settings_.scale,
-            Quaternion<double>(q.w(), q.x(), q.y(), q.z()).normalized()};
+    return {vector(transform.getOrigin()) / settings_.scale, Quaternion<double>(q.w(), q.x(), q.y(), q.z()).normalized()};
   }
-  Twist<double> velocity() const {
-    return {vector(body_->getLinearVelocity()) / settings_.scale, vector(body_->getAngularVelocity())};
-  }
+  Twist<double> velocity() const { return {vector(body_->getLinearVelocity()) / settings_.scale, vector(body_->getAngularVelocity())}; }
 
   void pull_towards(const Pose<double>& haptic) {
     const auto spring = settings_.coupling.spring_on_hand(pose(), haptic);
@@ -174,11 +163,10 @@ class BulletTool final : public CoupledTool {
 
 std::unique_ptr<CoupledTool> make_bullet_tool(const CoupledScene& scene, int substeps, double tick_seconds) {
   const double margin = std::clamp(scene.clearance / 8.0, 1e-6, 1e-4);
-  return std::make_unique<BulletTool>(
-      scene,
-      BulletSettings{"Bullet ×" + std::to_string(substeps), substeps, 100.0, margin, 0.8, 0.8, 10,
-                     SpringCoupling::of_stiffness(scene.setting.stiffness())},
-      tick_seconds);
+  return std::make_unique<BulletTool>(scene,
+                                      BulletSettings{"Bullet ×" + std::to_string(substeps), substeps, 100.0, margin, 0.8, 0.8, 10,
+                                                     SpringCoupling::of_stiffness(scene.setting.stiffness())},
+                                      tick_seconds);
 }
 
 std::unique_ptr<CoupledTool> make_chai3d_tool(const CoupledScene& scene, double tick_seconds) {
@@ -189,8 +177,7 @@ std::unique_ptr<CoupledTool> make_chai3d_tool(const CoupledScene& scene, double 
                                 .mass = mass,
                                 .inertia = mass * length * length,
                                 .feeds_velocity_forward = false};
-  return std::make_unique<BulletTool>(
-      scene, BulletSettings{"Bullet as CHAI3D", 1, scale, 33e-6, 0.2, 0.2, 10, coupling}, tick_seconds);
+  return std::make_unique<BulletTool>(scene, BulletSettings{"Bullet as CHAI3D", 1, scale, 33e-6, 0.2, 0.2, 10, coupling}, tick_seconds);
 }
 
 }  // namespace feeler::rivals

@@ -13,8 +13,7 @@ namespace feeler::rivals {
 /// @param scene         outlives the tool
 /// @param substeps      steps of the engine in a tick
 /// @param tick_seconds  between two updates
-std::unique_ptr<CoupledTool> make_bullet_tool(const CoupledScene& scene, int substeps,
-                                              double tick_seconds = 1e-3);
+std::unique_ptr<CoupledTool> make_bullet_tool(const CoupledScene& scene, int substeps, double tick_seconds = 1e-3);
 
 /// Set as in the demos of CHAI3D: the world times 30, a margin of 33 µm, 10 g, 4000 N/m and 30 units of
 /// torque a radian, no velocity of the device, one step a tick, all else as delivered.

@@ -26,9 +26,7 @@ struct Track {
   std::vector<double> microseconds;
 };
 
-bool is_same(const Pose<double>& a, const Pose<double>& b) {
-  return a.translation == b.translation && a.rotation.coeffs() == b.rotation.coeffs();
-}
+bool is_same(const Pose<double>& a, const Pose<double>& b) { return a.translation == b.translation && a.rotation.coeffs() == b.rotation.coeffs(); }
 
 /// Keeps the first run's poses and the least time of every tick of the runs.
 /// @return whether the poses of the runs are the same
@@ -38,22 +36,20 @@ bool merge(Track& kept, Track&& run) {
     return true;
   }
   const std::size_t both = std::min(kept.poses.size(), run.poses.size());
-  for (std::size_t i = 0; i < both; ++i)
-    kept.microseconds[i] = std::min(kept.microseconds[i], run.microseconds[i]);
+  for (std::size_t i = 0; i < both; ++i) kept.microseconds[i] = std::min(kept.microseconds[i], run.microseconds[i]);
   return std::equal(run.poses.begin(), run.poses.begin() + std::ptrdiff_t(both), kept.poses.begin(), is_same);
 }
 
 /// One run of all contenders; the last track is that of the distance query, with its answers.
 /// @param first_turn  ticks of it; all others are of `ticks_per_turn`
-std::vector<Track> run_in_turns(Contest& contest, const std::vector<Pose<double>>& device, int first_turn,
-                                double patience, std::vector<double>& distances) {
+std::vector<Track> run_in_turns(Contest& contest, const std::vector<Pose<double>>& device, int first_turn, double patience,
+                                std::vector<double>& distances) {
   const std::size_t contenders = contest.tools.size() + (contest.distance ? 1 : 0);
   std::vector<Track> tracks(contenders);
   std::vector<double> spent(contenders, 0.0);
   for (const auto& tool : contest.tools) tool->reset(contest.start);
   distances.clear();
-  for (std::size_t begin = 0, length = std::size_t(first_turn); begin < device.size();
-       begin += length, length = std::size_t(ticks_per_turn)) {
+  for (std::size_t begin = 0, length = std::size_t(first_turn); begin < device.size(); begin += length, length = std::size_t(ticks_per_turn)) {
     const std::size_t end = std::min(begin + length, device.size());
     for (std::size_t c = 0; c < contenders; ++c) {
       Track& track = tracks[c];
@@ -103,11 +99,9 @@ void judge(const Contest& contest, const Track& track, int check_every, Score& s
     }
     if (int(i) % check_every != check_every - 1) continue;
     ++score.samples;
-    const auto found =
-        test::deepest_penetration(contest.object, contest.pieces, test::checked_pose(track.poses[i]));
+    const auto found = test::deepest_penetration(contest.object, contest.pieces, test::checked_pose(track.poses[i]));
     score.deepest = std::max(score.deepest, double(found.depth));
-    score.crossed +=
-        std::any_of(sides.begin(), sides.end(), [](const auto& side) { return side.is_other(); }) ? 1 : 0;
+    score.crossed += std::any_of(sides.begin(), sides.end(), [](const auto& side) { return side.is_other(); }) ? 1 : 0;
   }
 }
 
@@ -144,8 +138,7 @@ double lag(CoupledTool& tool, const Contest& contest, double rate) {
   for (int i = 1; i <= int(seconds * rate); ++i) {
     const Pose<double> device = contest.motion(double(i) / rate);
     const Pose<double> pose = tool.update(device).graphic_pose;
-    if (double(i) > catching_up * rate)
-      worst = std::max(worst, (pose.translation - device.translation).norm());
+    if (double(i) > catching_up * rate) worst = std::max(worst, (pose.translation - device.translation).norm());
   }
   return worst;
 }
@@ -163,8 +156,7 @@ std::vector<Score> hold(Contest& contest, const ContestOptions& options) {
     const int first_turn = ticks_per_turn - ticks_per_turn * run / options.repeats;
     auto now = run_in_turns(contest, ticks, first_turn, options.patience, distances);
     tracks.resize(now.size());
-    for (std::size_t c = 0; c < now.size(); ++c)
-      scores[c].is_repeatable &= merge(tracks[c], std::move(now[c]));
+    for (std::size_t c = 0; c < now.size(); ++c) scores[c].is_repeatable &= merge(tracks[c], std::move(now[c]));
   }
 
   const auto metric = Metric<double>::with_length(contest.length);

@@ -31,8 +31,7 @@ struct Contest {
   double length;        ///< L of the metric [m]
   std::vector<std::unique_ptr<CoupledTool>> tools;
   std::vector<std::unique_ptr<CoupledTool>> free_tools;  ///< the same, with the object out of reach
-  std::function<double(const Pose<double>&)>
-      distance;  ///< a query at the poses of the first tool [m]; may be empty
+  std::function<double(const Pose<double>&)> distance;  ///< a query at the poses of the first tool [m]; may be empty
   test::CheckedObject object;
   std::vector<test::CheckedTool> pieces;
 };

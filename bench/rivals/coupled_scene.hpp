@@ -23,8 +23,7 @@ struct CoupledScene {
   const scenes::Setting& setting;
   std::vector<Points<double>> pieces;  ///< vertices of each convex piece of the tool, in the tool frame [m]
   Surface tool_surface;                ///< of all pieces, in the tool frame
-  std::variant<std::monostate, Box<double>, Segment<double>>
-      primitive;     ///< the tool, for engines that know such shapes
+  std::variant<std::monostate, Box<double>, Segment<double>> primitive;     ///< the tool, for engines that know such shapes
   double clearance;  ///< the least free play of the tool in the object [m]; infinite where nothing fits
 };
 
@@ -52,16 +51,13 @@ void add_surface(const Piece& piece, Surface& surface) {
 /// @param tool       as Feeler renders it
 /// @param clearance  the least free play of the tool in the object [m]
 template <RigidTool Tool>
-CoupledScene coupled_scene(const scenes::Setting& setting, const Tool& tool,
-                           double clearance = std::numeric_limits<double>::infinity()) {
+CoupledScene coupled_scene(const scenes::Setting& setting, const Tool& tool, double clearance = std::numeric_limits<double>::infinity()) {
   CoupledScene scene{setting, {}, {}, {}, clearance};
-  if constexpr (std::same_as<Tool, Box<double>> || std::same_as<Tool, Segment<double>>)
-    scene.primitive = tool;
+  if constexpr (std::same_as<Tool, Box<double>> || std::same_as<Tool, Segment<double>>) scene.primitive = tool;
   for (int i = 0; i < piece_count(tool); ++i) {
     const auto& piece = piece_of(tool, i);
     Points<double> points(piece.vertex_count(), 3);
-    for (int k = 0; k < piece.vertex_count(); ++k)
-      points.row(k) = Vector3<double>(piece.vertex(k)).transpose();
+    for (int k = 0; k < piece.vertex_count(); ++k) points.row(k) = Vector3<double>(piece.vertex(k)).transpose();
     scene.pieces.push_back(points);
     add_surface(piece, scene.tool_surface);
   }

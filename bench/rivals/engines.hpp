@@ -21,8 +21,7 @@ namespace feeler::rivals {
 
 /// Every engine with every number of substeps that is compared, at the start of the scene.
 /// @param scene  outlives the tools
-inline std::vector<std::unique_ptr<CoupledTool>> make_engines([[maybe_unused]] const CoupledScene& scene,
-                                                              [[maybe_unused]] double tick_seconds) {
+inline std::vector<std::unique_ptr<CoupledTool>> make_engines([[maybe_unused]] const CoupledScene& scene, [[maybe_unused]] double tick_seconds) {
   std::vector<std::unique_ptr<CoupledTool>> tools;
 #ifdef FEELER_HAS_ODE
   for (const int substeps : {1, 4, 10}) tools.push_back(make_ode_tool(scene, substeps, tick_seconds));

@@ -16,8 +16,7 @@ template <RigidTool Tool>
 class FeelerTool final : public CoupledTool {
  public:
   /// @param object  outlives the tool
-  FeelerTool(const TriangleMesh<double>& object, const Tool& tool, const scenes::Setting& setting)
-      : renderer_(object, tool, setting.settings()) {
+  FeelerTool(const TriangleMesh<double>& object, const Tool& tool, const scenes::Setting& setting) : renderer_(object, tool, setting.settings()) {
     reset(setting.start);
   }
 
@@ -25,8 +24,7 @@ class FeelerTool final : public CoupledTool {
 
   /// Throws where the tool would penetrate.
   void reset(const Pose<double>& pose) override {
-    if (renderer_.reset(pose) != Status::converged)
-      throw std::runtime_error("the tool is put at a pose where it penetrates.");
+    if (renderer_.reset(pose) != Status::converged) throw std::runtime_error("the tool is put at a pose where it penetrates.");
   }
 
   CoupledTick update(const Pose<double>& haptic_pose) override {

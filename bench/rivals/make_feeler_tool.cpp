@@ -6,20 +6,14 @@
 namespace feeler::rivals {
 
 template <RigidTool Tool>
-std::unique_ptr<CoupledTool> make_feeler_tool(const TriangleMesh<double>& object, const Tool& tool,
-                                              const scenes::Setting& setting) {
+std::unique_ptr<CoupledTool> make_feeler_tool(const TriangleMesh<double>& object, const Tool& tool, const scenes::Setting& setting) {
   return std::make_unique<FeelerTool<Tool>>(object, tool, setting);
 }
 
 using Object = TriangleMesh<double>;
-template std::unique_ptr<CoupledTool> make_feeler_tool(const Object&, const Segment<double>&,
-                                                       const scenes::Setting&);
-template std::unique_ptr<CoupledTool> make_feeler_tool(const Object&, const Box<double>&,
-                                                       const scenes::Setting&);
-template std::unique_ptr<CoupledTool> make_feeler_tool(const Object&, const ConvexPolytope<double>&,
-                                                       const scenes::Setting&);
-template std::unique_ptr<CoupledTool> make_feeler_tool(const Object&,
-                                                       const CompoundTool<ConvexPolytope<double>>&,
-                                                       const scenes::Setting&);
+template std::unique_ptr<CoupledTool> make_feeler_tool(const Object&, const Segment<double>&, const scenes::Setting&);
+template std::unique_ptr<CoupledTool> make_feeler_tool(const Object&, const Box<double>&, const scenes::Setting&);
+template std::unique_ptr<CoupledTool> make_feeler_tool(const Object&, const ConvexPolytope<double>&, const scenes::Setting&);
+template std::unique_ptr<CoupledTool> make_feeler_tool(const Object&, const CompoundTool<ConvexPolytope<double>>&, const scenes::Setting&);
 
 }  // namespace feeler::rivals

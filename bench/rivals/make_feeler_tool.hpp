@@ -13,7 +13,6 @@ namespace feeler::rivals {
 /// Instantiated for the tools of `scenes::Tool` and for compounds of polytopes.
 /// @param object  outlives the tool
 template <RigidTool Tool>
-std::unique_ptr<CoupledTool> make_feeler_tool(const TriangleMesh<double>& object, const Tool& tool,
-                                              const scenes::Setting& setting);
+std::unique_ptr<CoupledTool> make_feeler_tool(const TriangleMesh<double>& object, const Tool& tool, const scenes::Setting& setting);
 
 }  // namespace feeler::rivals

@@ -24,8 +24,7 @@ void start_ode() {
       if (dInitODE2(0) == 0 || dAllocateODEDataForThread(unsigned(dAllocateMaskAll)) == 0) {
         throw std::runtime_error("ODE cannot be initialised.");
       }
-      dSetMessageHandler(
-          [](int, const char*, va_list) {});  // it prints in the tick where contacts overflow a table
+      dSetMessageHandler([](int, const char*, va_list) {});  // it prints in the tick where contacts overflow a table
     }
     ~Engine() { dCloseODE(); }
   } engine;
@@ -45,8 +44,8 @@ class Trimesh {
   }
   /// A shape that the caller destroys before this is destroyed.
   dGeomID build() {
-    dGeomTriMeshDataBuildDouble(data_, vertices_.data(), 3 * sizeof(double), int(vertices_.size() / 3),
-                                indices_.data(), int(indices_.size()), 3 * sizeof(dTriIndex));
+    dGeomTriMeshDataBuildDouble(data_, vertices_.data(), 3 * sizeof(double), int(vertices_.size() / 3), indices_.data(), int(indices_.size()),
+                                3 * sizeof(dTriIndex));
     return dCreateTriMesh(nullptr, data_, nullptr, nullptr, nullptr);
   }
 
@@ -68,17 +67,14 @@ class OdeTool final : public CoupledTool {
     dWorldSetQuickStepNumIterations(world_, 20);
     body_ = dBodyCreate(world_);
     dMass mass;
-    dMassSetParameters(&mass, coupling_.mass, 0.0, 0.0, 0.0, coupling_.inertia, coupling_.inertia,
-                       coupling_.inertia, 0.0, 0.0, 0.0);
+    dMassSetParameters(&mass, coupling_.mass, 0.0, 0.0, 0.0, coupling_.inertia, coupling_.inertia, coupling_.inertia, 0.0, 0.0, 0.0);
     dBodySetMass(body_, &mass);
     contact_joints_ = dJointGroupCreate(0);
 
     tool_ = make_tool(scene);
     const auto& setting = scene.setting;
-    for (Eigen::Index i = 0; i < setting.vertices.rows(); ++i)
-      object_mesh_.add_vertex(setting.vertices.row(i).transpose());
-    for (Eigen::Index i = 0; i < setting.triangles.rows(); ++i)
-      object_mesh_.add_triangle(setting.triangles.row(i).transpose());
+    for (Eigen::Index i = 0; i < setting.vertices.rows(); ++i) object_mesh_.add_vertex(setting.vertices.row(i).transpose());
+    for (Eigen::Index i = 0; i < setting.triangles.rows(); ++i) object_mesh_.add_triangle(setting.triangles.row(i).transpose());
     object_ = object_mesh_.build();
     reset(setting.start);
   }
@@ -116,8 +112,7 @@ class OdeTool final : public CoupledTool {
     }
     random_seed_ = dRandGetSeed();
     const Pose<double>& body = path_.back();
-    return {body, coupling_.spring_on_hand(body, haptic_pose),
-            coupling_.damper_on_hand(velocity(), device_.velocity()), path_};
+    return {body, coupling_.spring_on_hand(body, haptic_pose), coupling_.damper_on_hand(velocity(), device_.velocity()), path_};
   }
 
  private:
@@ -130,8 +125,7 @@ class OdeTool final : public CoupledTool {
       return geom;
     }
     if (const auto* line = std::get_if<Segment<double>>(&scene.primitive)) {
-      const Vector3<double> along = line->vertex(1) - line->vertex(0),
-                            middle = (line->vertex(0) + line->vertex(1)) / 2.0;
+      const Vector3<double> along = line->vertex(1) - line->vertex(0), middle = (line->vertex(0) + line->vertex(1)) / 2.0;
       const auto turn = scenes::rotation_between(Vector3<double>::UnitZ(), along);
       const dQuaternion rotation{turn.w(), turn.x(), turn.y(), turn.z()};
       const dGeomID geom = dCreateCapsule(nullptr, line_radius, along.norm());
@@ -152,9 +146,7 @@ class OdeTool final : public CoupledTool {
     const dReal* q = dBodyGetQuaternion(body_);
     return {vector(dBodyGetPosition(body_)), Quaternion<double>(q[0], q[1], q[2], q[3])};
   }
-  Twist<double> velocity() const {
-    return {vector(dBodyGetLinearVel(body_)), vector(dBodyGetAngularVel(body_))};
-  }
+  Twist<double> velocity() const { return {vector(dBodyGetLinearVel(body_)), vector(dBodyGetAngularVel(body_))}; }
 
   /// The spring acts on where the device is as the step begins, so that a body at the device's velocity has
   /// no lag.
@@ -171,8 +163,7 @@ class OdeTool final : public CoupledTool {
     for (int i = 0; i < count; ++i) {
       dContact contact{};  // no friction, no bounce
       contact.geom = contacts_[std::size_t(i)];
-      dJointAttach(dJointCreateContact(world_, contact_joints_, &contact), dGeomGetBody(contact.geom.g1),
-                   dGeomGetBody(contact.geom.g2));
+      dJointAttach(dJointCreateContact(world_, contact_joints_, &contact), dGeomGetBody(contact.geom.g1), dGeomGetBody(contact.geom.g2));
     }
   }
 

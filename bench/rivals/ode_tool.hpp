@@ -15,7 +15,6 @@ namespace feeler::rivals {
 /// @param scene         outlives the tool
 /// @param substeps      steps of the engine in a tick
 /// @param tick_seconds  between two updates
-std::unique_ptr<CoupledTool> make_ode_tool(const CoupledScene& scene, int substeps,
-                                           double tick_seconds = 1e-3);
+std::unique_ptr<CoupledTool> make_ode_tool(const CoupledScene& scene, int substeps, double tick_seconds = 1e-3);
 
 }  // namespace feeler::rivals

@@ -29,10 +29,9 @@ std::string times(const Score& score) {
 }
 
 std::string behaviour(const Score& score) {
-  if (score.ticks == 0)
-    return "–; –; –; " + rounded(1e6 * score.lag);  // dropped out before it touched anything
-  return rounded(1e6 * score.deepest) + "; " + std::to_string(score.crossed) + "/" +
-         std::to_string(score.samples) + "; " + rounded(1e6 * score.jitter) + "; " + rounded(1e6 * score.lag);
+  if (score.ticks == 0) return "–; –; –; " + rounded(1e6 * score.lag);  // dropped out before it touched anything
+  return rounded(1e6 * score.deepest) + "; " + std::to_string(score.crossed) + "/" + std::to_string(score.samples) + "; " +
+         rounded(1e6 * score.jitter) + "; " + rounded(1e6 * score.lag);
 }
 
 std::string row(const std::vector<std::string>& cells) {
@@ -55,8 +54,7 @@ std::vector<std::string> names(const std::vector<Score>& scores) {
 }
 
 const Score* find(const std::vector<Score>& scores, const std::string& name) {
-  const auto found =
-      std::find_if(scores.begin(), scores.end(), [&](const Score& s) { return s.name == name; });
+  const auto found = std::find_if(scores.begin(), scores.end(), [&](const Score& s) { return s.name == name; });
   return found == scores.end() ? nullptr : &*found;
 }
 
@@ -65,9 +63,8 @@ struct Series {
   const char* name;
   const char* colour;
 };
-constexpr std::array shown{Series{"Feeler", "ink"},          Series{"ODE ×1", "'#9bd0ae'"},
-                           Series{"ODE ×4", "green"},        Series{"ODE ×10", "'#14532d'"},
-                           Series{"Bullet ×1", "'#f0c27a'"}, Series{"Bullet ×4", "amber"},
+constexpr std::array shown{Series{"Feeler", "ink"},          Series{"ODE ×1", "'#9bd0ae'"},    Series{"ODE ×4", "green"},
+                           Series{"ODE ×10", "'#14532d'"},   Series{"Bullet ×1", "'#f0c27a'"}, Series{"Bullet ×4", "amber"},
                            Series{"Bullet as CHAI3D", "red"}};
 
 }  // namespace
@@ -101,8 +98,7 @@ std::string scenes_in_markdown(const std::vector<SceneScores>& all) {
   }
 
   if (find(all.front().scores, reference_rival) != nullptr) {
-    text += std::string("\nTime of Feeler as a multiple of ") + reference_rival + ":\n\n" +
-            header({"scene", "median", "p99", "p99.9"});
+    text += std::string("\nTime of Feeler as a multiple of ") + reference_rival + ":\n\n" + header({"scene", "median", "p99", "p99.9"});
     for (const auto& scene : all) {
       const Score& ours = scene.scores.front();
       const Score* theirs = find(scene.scores, reference_rival);
@@ -112,18 +108,16 @@ std::string scenes_in_markdown(const std::vector<SceneScores>& all) {
         std::snprintf(cell.data(), cell.size(), "%.2f%s", a / b, a > b ? " (slower)" : "");
         return std::string(cell.data());
       };
-      text += row({scene.scene, ratio(ours.p50, theirs->p50), ratio(ours.p99, theirs->p99),
-                   ratio(ours.p999, theirs->p999)});
+      text += row({scene.scene, ratio(ours.p50, theirs->p50), ratio(ours.p99, theirs->p99), ratio(ours.p999, theirs->p999)});
     }
   }
 
   for (const auto& scene : all) {
     for (const auto& score : scene.scores) {
-      if (!score.is_repeatable)
-        text += "\n" + score.name + " did not repeat its poses in " + scene.scene + ".\n";
+      if (!score.is_repeatable) text += "\n" + score.name + " did not repeat its poses in " + scene.scene + ".\n";
       if (score.touching > 0) {
-        text += "\n" + score.name + " says that tool and object touch in " + std::to_string(score.touching) +
-                " of " + std::to_string(score.ticks) + " contact ticks of Feeler in " + scene.scene + ".\n";
+        text += "\n" + score.name + " says that tool and object touch in " + std::to_string(score.touching) + " of " + std::to_string(score.ticks) +
+                " contact ticks of Feeler in " + scene.scene + ".\n";
       }
     }
   }
@@ -159,13 +153,11 @@ void write_scenes(const std::filesystem::path& folder, const std::vector<SceneSc
       "repeatable,touching\n");
   for (std::size_t i = 0; i < all.size(); ++i) {
     for (const Score& s : all[i].scores) {
-      csv.print("%d,%s,%s,%d,%.6g,%.6g,%.6g,", int(i), all[i].scene.c_str(), s.name.c_str(), s.ticks, s.p50,
-                s.p99, s.p999);
+      csv.print("%d,%s,%s,%d,%.6g,%.6g,%.6g,", int(i), all[i].scene.c_str(), s.name.c_str(), s.ticks, s.p50, s.p99, s.p999);
       if (s.is_query) {
         csv.print(",,,,,%d,%d\n", int(s.is_repeatable), s.touching);
       } else {
-        csv.print("%d,%.6g,%d,%.6g,%.6g,%d,\n", s.samples, 1e6 * s.deepest, s.crossed, 1e6 * s.jitter,
-                  1e6 * s.lag, int(s.is_repeatable));
+        csv.print("%d,%.6g,%d,%.6g,%.6g,%d,\n", s.samples, 1e6 * s.deepest, s.crossed, 1e6 * s.jitter, 1e6 * s.lag, int(s.is_repeatable));
       }
     }
   }
@@ -179,13 +171,11 @@ void write_plates(const std::filesystem::path& folder, const std::vector<PlateSc
   csv.close();
 }
 
-void write_scaling(const std::filesystem::path& folder, const std::string& name,
-                   const std::vector<ScalingPoint>& curve) {
+void write_scaling(const std::filesystem::path& folder, const std::string& name, const std::vector<ScalingPoint>& curve) {
   demo::TextFile csv(folder / (name + ".csv"));
   csv.print("size,contender,contact_ticks,p50_us,p99_us,p999_us\n");
   for (const auto& point : curve) {
-    for (const Score& s : point.scores)
-      csv.print("%d,%s,%d,%.6g,%.6g,%.6g\n", point.size, s.name.c_str(), s.ticks, s.p50, s.p99, s.p999);
+    for (const Score& s : point.scores) csv.print("%d,%s,%d,%.6g,%.6g,%.6g\n", point.size, s.name.c_str(), s.ticks, s.p50, s.p99, s.p999);
   }
   csv.close();
 }
@@ -200,10 +190,9 @@ bool draw_scenes(const std::filesystem::path& folder, const std::vector<SceneSco
     std::string text = "plot ";
     for (std::size_t k = 0; k < series.size(); ++k) {
       const double offset = 0.11 * (double(k) - double(series.size() - 1) / 2.0);
-      const std::string x =
-          "(strcol(3) eq '" + std::string(series[k].name) + "' ? $1+" + std::to_string(offset) + " : NaN)";
-      text += std::string(k > 0 ? ", " : "") + "'scenes.csv' skip 1 using " + x + ":" + columns + " with " +
-              with + " lc rgb " + series[k].colour + " title '" + series[k].name + "'";
+      const std::string x = "(strcol(3) eq '" + std::string(series[k].name) + "' ? $1+" + std::to_string(offset) + " : NaN)";
+      text += std::string(k > 0 ? ", " : "") + "'scenes.csv' skip 1 using " + x + ":" + columns + " with " + with + " lc rgb " + series[k].colour +
+              " title '" + series[k].name + "'";
     }
     return text + "\n";
   };
@@ -218,29 +207,25 @@ bool draw_scenes(const std::filesystem::path& folder, const std::vector<SceneSco
   labels += ")\n";
   const bool has_times =
       experiments::draw(folder, "rivals_time", 1100, 480,
-                        axes + labels + "set ylabel 'time of a tick, median to p99  [µs]'\n" +
-                            plot("5:5:6", "yerrorbars pt 7 ps 0.55 lw 1.6"));
-  const bool has_depths = experiments::draw(
-      folder, "rivals_penetration", 1100, 480,
-      axes + labels +
-          "set ylabel 'deepest penetration  [µm]'; set yrange [0.01:]; set ytics add ('≤ 0.01' 0.01)\n" +
-          plot("($9 > 0.01 ? $9 : 0.01)", "points pt 7 ps 0.8"));
+                        axes + labels + "set ylabel 'time of a tick, median to p99  [µs]'\n" + plot("5:5:6", "yerrorbars pt 7 ps 0.55 lw 1.6"));
+  const bool has_depths =
+      experiments::draw(folder, "rivals_penetration", 1100, 480,
+                        axes + labels + "set ylabel 'deepest penetration  [µm]'; set yrange [0.01:]; set ytics add ('≤ 0.01' 0.01)\n" +
+                            plot("($9 > 0.01 ? $9 : 0.01)", "points pt 7 ps 0.8"));
   return has_times && has_depths;
 }
 
-bool draw_scaling(const std::filesystem::path& folder, const std::string& name, const std::string& size,
-                  const std::vector<ScalingPoint>& curve) {
+bool draw_scaling(const std::filesystem::path& folder, const std::string& name, const std::string& size, const std::vector<ScalingPoint>& curve) {
   std::string text =
       "set key outside top horizontal Left reverse samplen 1.6\nset logscale xy; unset mxtics\n"
-      "set autoscale xfix; set offsets graph 0.02, graph 0.02, 0, 0\nset xlabel '" + size +
-      "'; set ylabel 'time of a tick  [µs]'\nplot ";
+      "set autoscale xfix; set offsets graph 0.02, graph 0.02, 0, 0\nset xlabel '" +
+      size + "'; set ylabel 'time of a tick  [µs]'\nplot ";
   bool is_first = true;
   for (const Series& s : shown) {
     if (curve.empty() || find(curve.front().scores, s.name) == nullptr) continue;
     for (const auto& [column, title, dash] : {std::tuple("4", "median", "1"), std::tuple("5", "p99", "2")}) {
-      text += std::string(is_first ? "" : ", ") + "'< grep \"" + s.name + "\" " + name +
-              ".csv' using 1:" + column + ":xtic(1) with linespoints pt 7 ps 0.6 lw 1.8 dt " + dash + " lc rgb " +
-              s.colour + " title '" + s.name + ", " + title + "'";
+      text += std::string(is_first ? "" : ", ") + "'< grep \"" + s.name + "\" " + name + ".csv' using 1:" + column +
+              ":xtic(1) with linespoints pt 7 ps 0.6 lw 1.8 dt " + dash + " lc rgb " + s.colour + " title '" + s.name + ", " + title + "'";
       is_first = false;
     }
   }

@@ -26,13 +26,11 @@ std::string scaling_in_markdown(const std::string& size, const std::vector<Scali
 /// scenes.csv, plates.csv and `name`.csv in the folder.
 void write_scenes(const std::filesystem::path& folder, const std::vector<SceneScores>& all);
 void write_plates(const std::filesystem::path& folder, const std::vector<PlateScore>& all);
-void write_scaling(const std::filesystem::path& folder, const std::string& name,
-                   const std::vector<ScalingPoint>& curve);
+void write_scaling(const std::filesystem::path& folder, const std::string& name, const std::vector<ScalingPoint>& curve);
 
 /// Draw rivals_time and rivals_penetration from scenes.csv, and `name` from `name`.csv.
 /// @return false where gnuplot is missing or fails
 bool draw_scenes(const std::filesystem::path& folder, const std::vector<SceneScores>& all);
-bool draw_scaling(const std::filesystem::path& folder, const std::string& name, const std::string& size,
-                  const std::vector<ScalingPoint>& curve);
+bool draw_scaling(const std::filesystem::path& folder, const std::string& name, const std::string& size, const std::vector<ScalingPoint>& curve);
 
 }  // namespace feeler::rivals

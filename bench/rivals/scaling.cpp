@@ -25,8 +25,7 @@ std::vector<Score> scores_of(const scenes::Setting& scene, const Tool& tool, Con
 ConvexPolytope<double> pebble_of(int vertices) {
   scenes::RandomBits random(1);
   Points<double> points(vertices, 3);
-  for (int i = 0; i < vertices; ++i)
-    points.row(i) = random.direction().cwiseProduct(scenes::Vector(0.015, 0.012, 0.010)).transpose();
+  for (int i = 0; i < vertices; ++i) points.row(i) = random.direction().cwiseProduct(scenes::Vector(0.015, 0.012, 0.010)).transpose();
   return ConvexPolytope<double>::hull_of(points);
 }
 
@@ -37,8 +36,7 @@ std::vector<ScalingPoint> grow_object(const ContestOptions& options) {
   for (const int cells : {22, 39, 71, 122, 224, 387, 707}) {
     std::fprintf(stderr, "terrain of %d triangles\n", 2 * cells * cells);
     const scenes::Scene scene = scenes::terrain(cells);
-    curve.push_back(
-        {2 * cells * cells, scores_of(scene, std::get<ConvexPolytope<double>>(scene.tool), options)});
+    curve.push_back({2 * cells * cells, scores_of(scene, std::get<ConvexPolytope<double>>(scene.tool), options)});
   }
   return curve;
 }

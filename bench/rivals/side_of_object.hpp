@@ -27,8 +27,7 @@ inline Eigen::Vector3d middle_of(const std::vector<test::CheckedTool>& pieces) {
 class SideOfObject {
  public:
   /// @param object  outlives this
-  SideOfObject(const test::CheckedObject& object, const Eigen::Vector3d& start)
-      : object_(object), place_(start) {}
+  SideOfObject(const test::CheckedObject& object, const Eigen::Vector3d& start) : object_(object), place_(start) {}
 
   bool is_other() const { return crossings_ % 2 != 0; }
 
@@ -40,8 +39,7 @@ class SideOfObject {
     for (std::size_t group = 0; group < object_.block_bounds.size(); ++group) {
       if (!object_.block_bounds[group].intersects(way)) continue;
       const std::size_t first = group * test::CheckedObject::block;
-      for (std::size_t i = first; i < std::min(first + test::CheckedObject::block, object_.bounds.size());
-           ++i) {
+      for (std::size_t i = first; i < std::min(first + test::CheckedObject::block, object_.bounds.size()); ++i) {
         if (object_.bounds[i].intersects(way) && is_crossed(int(i), place)) ++crossings_;
       }
     }
@@ -51,9 +49,7 @@ class SideOfObject {
  private:
   using Vector = test::WideVector;
 
-  static test::WideReal volume(const Vector& a, const Vector& b, const Vector& c) {
-    return a.dot(b.cross(c));
-  }
+  static test::WideReal volume(const Vector& a, const Vector& b, const Vector& c) { return a.dot(b.cross(c)); }
 
   /// On which side the line through a along `way` passes an edge. Reversed, the edge has the other sign to
   /// the last bit, and where the line meets it, the order of its ends decides: of two triangles that share
@@ -69,13 +65,10 @@ class SideOfObject {
     const Vector a = place_.cast<test::WideReal>(), b = place.cast<test::WideReal>();
     std::array<Vector, 3> corners;
     for (int k = 0; k < 3; ++k) corners[std::size_t(k)] = object_.corner(triangle, k);
-    const auto is_above = [&](const Vector& point) {
-      return volume(corners[0] - point, corners[1] - point, corners[2] - point) >= 0;
-    };
+    const auto is_above = [&](const Vector& point) { return volume(corners[0] - point, corners[1] - point, corners[2] - point) >= 0; };
     if (is_above(a) == is_above(b)) return false;
     const bool first = is_passed_left(a, b - a, corners[0], corners[1]);
-    return first == is_passed_left(a, b - a, corners[1], corners[2]) &&
-           first == is_passed_left(a, b - a, corners[2], corners[0]);
+    return first == is_passed_left(a, b - a, corners[1], corners[2]) && first == is_passed_left(a, b - a, corners[2], corners[0]);
   }
 
   const test::CheckedObject& object_;

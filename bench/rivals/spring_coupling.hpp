@@ -15,18 +15,14 @@ struct SpringCoupling {
   double rotational_stiffness;  ///< [N·m/rad]
   double mass = 0.04;           ///< [kg]
   double inertia;               ///< about any axis [kg·m²]
-  bool feeds_velocity_forward =
-      true;  ///< the damper acts on the velocity relative to the device's; else on the body's own
+  bool feeds_velocity_forward = true;  ///< the damper acts on the velocity relative to the device's; else on the body's own
 
   /// An isotropic K and a body of 40 g and the inertia that gives both motions the same time constant: 6 ms at
   /// 1000 N/m.
   static SpringCoupling of_stiffness(const Stiffness<double>& k) {
     const double stiffness = k.translational.x(), rotational_stiffness = k.rotational.x();
     constexpr double mass = 0.04;
-    return {.stiffness = stiffness,
-            .rotational_stiffness = rotational_stiffness,
-            .mass = mass,
-            .inertia = mass * rotational_stiffness / stiffness};
+    return {.stiffness = stiffness, .rotational_stiffness = rotational_stiffness, .mass = mass, .inertia = mass * rotational_stiffness / stiffness};
   }
 
   /// Critical damping [N·s/m], [N·m·s/rad].
@@ -40,8 +36,7 @@ struct SpringCoupling {
   /// Of the damper on the hand, for velocities [m/s, rad/s].
   Wrench<double> damper_on_hand(const Twist<double>& body, const Twist<double>& haptic) const {
     const Twist<double> device = feeds_velocity_forward ? haptic : Twist<double>{};
-    return {damping() * (body.linear - device.linear),
-            rotational_damping() * (body.angular - device.angular)};
+    return {damping() * (body.linear - device.linear), rotational_damping() * (body.angular - device.angular)};
   }
 };
 
@@ -69,9 +64,7 @@ class DeviceMotion {
   const Twist<double>& velocity() const { return velocity_; }
 
  private:
-  static Vector3<double> cut_off(const Vector3<double>& v, double most) {
-    return v * std::min(1.0, most / std::max(v.norm(), most));
-  }
+  static Vector3<double> cut_off(const Vector3<double>& v, double most) { return v * std::min(1.0, most / std::max(v.norm(), most)); }
 
   Pose<double> last_, now_;
   Twist<double> motion_, velocity_;

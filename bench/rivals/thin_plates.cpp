@@ -47,8 +47,7 @@ double reach(const CoupledScene& scene, const Quaternion<double>& rotation) {
 }
 
 /// Whether the middle of the tool is below the plate after a push.
-bool is_pushed_through(CoupledTool& tool, const Contest& contest, const Pose<double>& start, const Push& push,
-                       double rate) {
+bool is_pushed_through(CoupledTool& tool, const Contest& contest, const Pose<double>& start, const Push& push, double rate) {
   const Vector middle = middle_of(contest.pieces);
   tool.reset(start);
   SideOfObject side(contest.object, start * middle);
@@ -62,8 +61,7 @@ bool is_pushed_through(CoupledTool& tool, const Contest& contest, const Pose<dou
 }
 
 template <RigidTool Tool>
-void push_through(const Tool& tool, double rate, scenes::RandomBits& random,
-                  std::vector<PlateScore>& scores) {
+void push_through(const Tool& tool, double rate, scenes::RandomBits& random, std::vector<PlateScore>& scores) {
   scenes::Scene plate = scenes::plate();
   plate.start.translation.z() = 0.1;  // free for every tool
   Arena arena(plate, tool, std::numeric_limits<double>::infinity(), 1.0 / rate);

@@ -29,17 +29,14 @@ inline std::vector<CatalogueEntry> catalogue() {
   std::vector<CatalogueEntry> list;
   constexpr double none = std::numeric_limits<double>::infinity();
   const auto add = [&](const char* family, std::string label, double clearance, auto make) {
-    list.push_back(
-        {family, std::move(label), clearance, [make] { return std::variant<Scene, CompoundScene>(make()); }});
+    list.push_back({family, std::move(label), clearance, [make] { return std::variant<Scene, CompoundScene>(make()); }});
   };
-  for (const auto& [clearance, label] :
-       {std::pair(1e-3, "cavity 1 mm"), std::pair(1e-5, "cavity 10 µm"), std::pair(0.0, "cavity none")}) {
+  for (const auto& [clearance, label] : {std::pair(1e-3, "cavity 1 mm"), std::pair(1e-5, "cavity 10 µm"), std::pair(0.0, "cavity none")}) {
     add("cavity", label, clearance, [clearance = clearance] { return cavity(clearance); });
   }
   add("steps", "steps line", none, steps);
   add("steps", "steps prism", none, steps_with_prism);
-  for (const auto& [clearance, label] :
-       {std::pair(2e-4, "spline 200 µm"), std::pair(2e-5, "spline 20 µm"), std::pair(0.0, "spline none")}) {
+  for (const auto& [clearance, label] : {std::pair(2e-4, "spline 200 µm"), std::pair(2e-5, "spline 20 µm"), std::pair(0.0, "spline none")}) {
     add("spline", label, clearance, [clearance = clearance] { return spline(clearance); });
   }
   add("sulcus", "sulcus", none, sulcus);

@@ -15,8 +15,7 @@ struct Grid {
 /// Fills `vertices` and `triangles` with z = height(x, y): two triangles a cell, counter-clockwise seen from
 /// above.
 template <class Height>
-void mesh_height_field(const Grid& grid, const Height& height, Points<double>& vertices,
-                       Triangles& triangles) {
+void mesh_height_field(const Grid& grid, const Height& height, Points<double>& vertices, Triangles& triangles) {
   const int columns = grid.x_cells + 1;
   const int rows = grid.y_cells + 1;
   vertices.resize(Eigen::Index(columns) * rows, 3);

@@ -21,17 +21,12 @@ inline Eigen::AlignedBox3d bounds(const Points<double>& vertices, const Triangle
 /// How far a tool reaches along a world direction from the origin of its frame, when turned [m].
 inline double reach(const Tool& tool, const Quaternion<double>& rotation, const Vector& direction) {
   const Vector direction_tool = rotation.conjugate() * direction;
-  return std::visit(
-      [&](const auto& shape) {
-        return direction_tool.dot(Vector(shape.vertex(shape.support(direction_tool))));
-      },
-      tool);
+  return std::visit([&](const auto& shape) { return direction_tool.dot(Vector(shape.vertex(shape.support(direction_tool)))); }, tool);
 }
 
 /// The vertex of a tool with the least z, in the tool frame [m]: with what it presses.
 inline Vector lowest_vertex(const Tool& tool) {
-  return std::visit([](const auto& shape) { return Vector(shape.vertex(shape.support(-Vector::UnitZ()))); },
-                    tool);
+  return std::visit([](const auto& shape) { return Vector(shape.vertex(shape.support(-Vector::UnitZ()))); }, tool);
 }
 
 /// Radius of the ball about the origin of the tool frame that holds the tool [m].
@@ -39,8 +34,7 @@ inline double radius(const Tool& tool) {
   return std::visit(
       [](const auto& shape) {
         double squared = 0.0;
-        for (int i = 0; i < shape.vertex_count(); ++i)
-          squared = std::max(squared, Vector(shape.vertex(i)).squaredNorm());
+        for (int i = 0; i < shape.vertex_count(); ++i) squared = std::max(squared, Vector(shape.vertex(i)).squaredNorm());
         return std::sqrt(squared);
       },
       tool);
@@ -74,19 +68,13 @@ inline Scene mesh_scene(std::string name, Points<double> vertices, Triangles tri
     const double phi = 1.3 * std::sin(1.3 * pace * t);
     return Vector(std::sin(theta) * std::cos(phi), std::sin(phi), std::cos(theta) * std::cos(phi));
   };
-  const SurfacePath surface(
-      scene.vertices, scene.triangles,
-      [=](double t) {
-        return Ray{centre, outward(t)};
-      },
-      outside, 10.0);
+  const SurfacePath surface(scene.vertices, scene.triangles, [=](double t) { return Ray{centre, outward(t)}; }, outside, 10.0);
 
   scene.motion = [=, tool_copy = scene.tool](double t) {
     const double s = surface.folded(t);
     const Vector direction = outward(s);
     const Vector wobble(0.3 * std::sin(3.0 * t), 0.3 * std::sin(4.0 * t), 0.8 * std::sin(2.0 * t));
-    const Quaternion<double> rotation =
-        exp_rotation(wobble) * rotation_between(Vector::UnitZ(), direction);
+    const Quaternion<double> rotation = exp_rotation(wobble) * rotation_between(Vector::UnitZ(), direction);
     const double depth = press * (0.003 + 0.002 * std::sin(7.0 * t));
     const double pressed = surface(s) - depth;
     const double away = outside + 0.005;

@@ -13,14 +13,10 @@ namespace feeler::scenes {
 
 using Vector = Vector3<double>;
 
-inline Pose<double> pose_of(const Vector& rotation_vector, const Vector& position) {
-  return {position, exp_rotation(rotation_vector)};
-}
+inline Pose<double> pose_of(const Vector& rotation_vector, const Vector& position) { return {position, exp_rotation(rotation_vector)}; }
 
 /// The ramp a = min(1, 2t) with which a hand comes down in the first half second.
-inline double approach(double t) {
-  return std::min(1.0, 2.0 * t);
-}
+inline double approach(double t) { return std::min(1.0, 2.0 * t); }
 
 /// Random numbers from raw mt19937 bits: the distributions of the standard library differ between its
 /// vendors.
@@ -82,8 +78,7 @@ inline Motion started_from(const Pose<double>& start, Motion motion, double seco
     const Pose<double> pose = motion(t);
     const double s = std::clamp(t / seconds, 0.0, 1.0);
     const double share = s * s * (3.0 - 2.0 * s);
-    return Pose<double>{start.translation + share * (pose.translation - start.translation),
-                        start.rotation.slerp(share, pose.rotation)};
+    return Pose<double>{start.translation + share * (pose.translation - start.translation), start.rotation.slerp(share, pose.rotation)};
   };
 }
 

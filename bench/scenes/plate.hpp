@@ -72,8 +72,7 @@ inline Scene tunnel(int walls = 4, double clearance = 1e-3, double speed = 1.0) 
   scene.motion = [speed](double t) {
     const double phase = speed / reach * t;
     return pose_of({0.4 * std::sin(3.3 * t), 0.3 * std::sin(2.7 * t), 0.3 * std::sin(4.1 * t)},
-                   {0.03 * std::sin(2.1 * t), reach * std::sin(phase) * std::sin(1.3 * t),
-                    reach * std::sin(phase) * std::cos(1.3 * t)});
+                   {0.03 * std::sin(2.1 * t), reach * std::sin(phase) * std::sin(1.3 * t), reach * std::sin(phase) * std::cos(1.3 * t)});
   };
   scene.start = scene.motion(0.0);
   scene.length = 0.008;

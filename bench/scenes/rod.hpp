@@ -15,8 +15,7 @@ inline CompoundScene rod(int cells, int pieces) {
   for (int i = 0; i < pieces; ++i) {
     Points<double>& corners = scene.pieces.emplace_back(8, 3);
     for (int k = 0; k < 8; ++k) {
-      corners.row(k) << ((k & 1) != 0 ? 0.002 : -0.002), ((k & 2) != 0 ? 0.002 : -0.002),
-          0.06 * (i + (k >> 2)) / pieces;
+      corners.row(k) << ((k & 1) != 0 ? 0.002 : -0.002), ((k & 2) != 0 ? 0.002 : -0.002), 0.06 * (i + (k >> 2)) / pieces;
     }
   }
   scene.motion = [](double t) {

@@ -49,14 +49,12 @@ inline Scene shaft(int facets = 24, double play = 2e-5) {
 
   std::vector<Vector> corners;
   for (int i = 0; i < facets; ++i) {
-    for (const double z : {-half_length, half_length})
-      corners.push_back(detail::polygon_corner(facets, radius, i, z));
+    for (const double z : {-half_length, half_length}) corners.push_back(detail::polygon_corner(facets, radius, i, z));
   }
   scene.tool = ConvexPolytope<double>::hull_of(points_from(corners));
   scene.motion = [](double t) {
     return pose_of({0.1 * std::sin(4.0 * t), 0.1 * std::sin(3.3 * t), 0.4 * std::sin(2.5 * t)},
-                   {0.002 * std::sin(6.0 * t), 0.002 * std::sin(7.0 * t),
-                    half_length + 0.002 - 0.006 * (1.0 - std::cos(2.0 * t))});
+                   {0.002 * std::sin(6.0 * t), 0.002 * std::sin(7.0 * t), half_length + 0.002 - 0.006 * (1.0 - std::cos(2.0 * t))});
   };
   scene.start = scene.motion(0.0);
   scene.tip = Vector(0.0, 0.0, -half_length);

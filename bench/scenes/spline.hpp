@@ -23,8 +23,7 @@ struct SplineProfile {
     const double angle = double(tooth) * 2.0 * std::numbers::pi / double(teeth);
     const double radial = (which == 0 || which == 3) ? root_radius : tip_radius;
     const double tangential = which < 2 ? -half_width : half_width;
-    return {radial * std::cos(angle) - tangential * std::sin(angle),
-            radial * std::sin(angle) + tangential * std::cos(angle), z};
+    return {radial * std::cos(angle) - tangential * std::sin(angle), radial * std::sin(angle) + tangential * std::cos(angle), z};
   }
 };
 
@@ -85,8 +84,7 @@ inline CompoundScene spline(double clearance = 2e-4) {
   add_spline_hole(scene, profile.offset_by(clearance), 0.02, 6);
   const bool fits_perfectly = clearance == 0.0;
   scene.motion = [fits_perfectly](double t) {
-    const double z = fits_perfectly ? half_length - 0.01 + 0.004 * std::sin(8.0 * t)
-                                    : half_length + 0.002 - 0.012 * (1.0 - std::cos(3.0 * t));
+    const double z = fits_perfectly ? half_length - 0.01 + 0.004 * std::sin(8.0 * t) : half_length + 0.002 - 0.012 * (1.0 - std::cos(3.0 * t));
     return pose_of({0.15 * std::sin(4.0 * t), 0.15 * std::sin(3.3 * t), 0.3 * std::sin(5.0 * t)},
                    {0.003 * std::sin(6.0 * t), 0.003 * std::sin(7.0 * t), z});
   };

@@ -13,16 +13,8 @@ namespace detail {
 
 /// The stepped profile, extruded along y as an open sheet, with the motion of the probing hand.
 inline Scene steps_without_tool() {
-  constexpr std::array<std::array<double, 2>, 10> profile{{{-0.06, 0.0},
-                                                           {-0.03, 0.0},
-                                                           {-0.03, 0.01},
-                                                           {0.0, 0.01},
-                                                           {0.0, 0.02},
-                                                           {0.012, 0.02},
-                                                           {0.018, 0.012},
-                                                           {0.03, 0.016},
-                                                           {0.03, 0.0},
-                                                           {0.06, 0.0}}};
+  constexpr std::array<std::array<double, 2>, 10> profile{
+      {{-0.06, 0.0}, {-0.03, 0.0}, {-0.03, 0.01}, {0.0, 0.01}, {0.0, 0.02}, {0.012, 0.02}, {0.018, 0.012}, {0.03, 0.016}, {0.03, 0.0}, {0.06, 0.0}}};
   Scene scene;
   scene.vertices.resize(2 * Eigen::Index(profile.size()), 3);
   scene.triangles.resize(2 * (Eigen::Index(profile.size()) - 1), 3);
@@ -37,8 +29,7 @@ inline Scene steps_without_tool() {
   }
   scene.motion = [](double t) {
     return pose_of({0.5 * std::sin(2.3 * t), 0.2 + 0.7 * std::sin(2.1 * t), 0.3 * std::sin(1.1 * t)},
-                   {-0.045 * std::cos(3.0 * t), 0.015 * std::sin(2.0 * t),
-                    0.05 - approach(t) * (0.033 + 0.008 * std::sin(5.0 * t))});
+                   {-0.045 * std::cos(3.0 * t), 0.015 * std::sin(2.0 * t), 0.05 - approach(t) * (0.033 + 0.008 * std::sin(5.0 * t))});
   };
   scene.start = scene.motion(0.0);
   scene.tip = Vector(0.0, 0.0, -0.015);

@@ -45,8 +45,7 @@ inline Scene sulcus() {
   scene.tip = probe_tip;
   scene.motion = [](double t) {
     return pose_of({0.35 * std::sin(2.9 * t), 0.3 * std::sin(3.7 * t), 0.5 * std::sin(2.0 * t)},
-                   {0.018 * std::sin(3.0 * t), 0.002 * std::sin(11.0 * t),
-                    0.028 - approach(t) * (0.0105 + 0.002 * std::sin(7.0 * t))});
+                   {0.018 * std::sin(3.0 * t), 0.002 * std::sin(11.0 * t), 0.028 - approach(t) * (0.0105 + 0.002 * std::sin(7.0 * t))});
   };
   scene.start = scene.motion(0.0);
   scene.length = 0.0055;

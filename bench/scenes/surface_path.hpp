@@ -49,8 +49,7 @@ class SurfacePath {
   /// @param fallback  height where a ray misses the object before it ever hit it [m]
   /// @param duration  after it the path runs backwards [s]
   template <class RayAt>
-  SurfacePath(const Points<double>& vertices, const Triangles& triangles, const RayAt& ray_at,
-              double fallback, double duration)
+  SurfacePath(const Points<double>& vertices, const Triangles& triangles, const RayAt& ray_at, double fallback, double duration)
       : duration_(duration) {
     const int knots = int(std::ceil(duration / spacing)) + 1;
     std::vector<double> cast(std::size_t(knots), fallback);
@@ -63,9 +62,7 @@ class SurfacePath {
   }
 
   /// Folds time into the path, forth and back for ever; the hand rests where it turns.
-  double folded(double t) const {
-    return duration_ / 2.0 * (1.0 - std::cos(std::numbers::pi * t / duration_));
-  }
+  double folded(double t) const { return duration_ / 2.0 * (1.0 - std::cos(std::numbers::pi * t / duration_)); }
 
   /// Height at a folded time [m].
   double operator()(double t) const {
@@ -75,10 +72,7 @@ class SurfacePath {
     const double s = position - double(i);
     const auto knot = [&](int k) { return heights_[std::size_t(std::clamp(k, 0, last))]; };
     const double before = knot(i - 1), from = knot(i), to = knot(i + 1), after = knot(i + 2);
-    return from + 0.5 * s *
-                      (to - before +
-                       s * (2.0 * before - 5.0 * from + 4.0 * to - after +
-                            s * (3.0 * (from - to) + after - before)));
+    return from + 0.5 * s * (to - before + s * (2.0 * before - 5.0 * from + 4.0 * to - after + s * (3.0 * (from - to) + after - before)));
   }
 
  private:

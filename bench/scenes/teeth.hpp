@@ -22,8 +22,8 @@ class DentalArch {
     const Eigen::Vector2d tangent_from = (to - knot(i - 1)) / 2.0;
     const Eigen::Vector2d tangent_to = (knot(i + 2) - from) / 2.0;
     const double s2 = s * s, s3 = s2 * s;
-    const Eigen::Vector2d p = (2.0 * s3 - 3.0 * s2 + 1.0) * from + (s3 - 2.0 * s2 + s) * tangent_from +
-                              (3.0 * s2 - 2.0 * s3) * to + (s3 - s2) * tangent_to;
+    const Eigen::Vector2d p =
+        (2.0 * s3 - 3.0 * s2 + 1.0) * from + (s3 - 2.0 * s2 + s) * tangent_from + (3.0 * s2 - 2.0 * s3) * to + (s3 - s2) * tangent_to;
     return {u < 0.0 ? -p.x() : p.x(), p.y(), 0.0};
   }
 
@@ -81,12 +81,7 @@ inline Scene lower_teeth(Points<double> vertices, Triangles triangles) {
     return Vector(arch.at(u) + across * arch.cheekward(u));
   };
   const double above = bounds(scene.vertices, scene.triangles).max().z() + 0.004;
-  const SurfacePath surface(
-      scene.vertices, scene.triangles,
-      [=](double t) {
-        return Ray{place(t), Vector::UnitZ()};
-      },
-      above, 10.0);
+  const SurfacePath surface(scene.vertices, scene.triangles, [=](double t) { return Ray{place(t), Vector::UnitZ()}; }, above, 10.0);
 
   scene.motion = [=](double t) {
     const double s = surface.folded(t);
@@ -95,8 +90,7 @@ inline Scene lower_teeth(Points<double> vertices, Triangles triangles) {
     const Vector cheek = arch.cheekward(u);
     const Vector along(-cheek.y(), cheek.x(), 0.0);
     const Vector lean = (0.25 + 0.25 * std::sin(2.9 * t)) * along + 0.2 * std::sin(3.7 * t) * cheek;
-    const Quaternion<double> rotation =
-        exp_rotation(lean) * exp_rotation(Vector(0.0, 0.0, 0.5 * std::sin(2.0 * t)));
+    const Quaternion<double> rotation = exp_rotation(lean) * exp_rotation(Vector(0.0, 0.0, 0.5 * std::sin(2.0 * t)));
     const double depth = 0.002 + 0.001 * std::sin(6.1 * t);
     const double a = approach(t);
     const double share = a * a * (3.0 - 2.0 * a);

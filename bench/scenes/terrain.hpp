@@ -24,16 +24,14 @@ inline Scene terrain(int cells = 71, std::uint32_t seed = 1) {
   mesh_height_field(
       {-0.1, 0.1, -0.1, 0.1, cells, cells},
       [](double x, double y) {
-        return 0.002 * std::sin(180.0 * x) * std::cos(150.0 * y) +
-               0.0006 * std::sin(900.0 * x + 1.0) * std::sin(800.0 * y) +
+        return 0.002 * std::sin(180.0 * x) * std::cos(150.0 * y) + 0.0006 * std::sin(900.0 * x + 1.0) * std::sin(800.0 * y) +
                0.00008 * std::sin(6000.0 * x) * std::sin(5200.0 * y);
       },
       scene.vertices, scene.triangles);
   scene.tool = pebble(seed);
   scene.motion = [](double t) {
     return pose_of({0.4 * std::sin(4.5 * t), 0.4 * std::sin(3.9 * t), 0.6 * std::sin(2.0 * t)},
-                   {0.045 * std::sin(4.0 * t), 0.04 * std::sin(2.7 * t),
-                    0.03 - approach(t) * (0.0235 + 0.002 * std::sin(6.0 * t))});
+                   {0.045 * std::sin(4.0 * t), 0.04 * std::sin(2.7 * t), 0.03 - approach(t) * (0.0235 + 0.002 * std::sin(6.0 * t))});
   };
   scene.start = scene.motion(0.0);
   scene.length = 0.010;

@@ -40,9 +40,7 @@ class Swing {
   Vector3<double> low_ = Vector3<double>::Constant(std::numeric_limits<double>::infinity()), high_ = -low_;
 };
 
-Vector3<double> vector(const double (&v)[3]) noexcept {
-  return {v[0], v[1], v[2]};
-}
+Vector3<double> vector(const double (&v)[3]) noexcept { return {v[0], v[1], v[2]}; }
 
 double smooth(double s) noexcept {
   s = std::clamp(s, 0.0, 1.0);
@@ -54,8 +52,8 @@ double smooth(double s) noexcept {
 DevicePath path_of(const Situation& situation, const Pose<double>& contact, const LoopSetup& setup) {
   const bool turns = situation.turns();
   const double press = press_of(setup.device, turns);
-  const double beyond = turns ? press / setup.grip.rotational_stiffness + press / setup.rotational_stiffness
-                              : press / setup.grip.stiffness + press / setup.stiffness;
+  const double beyond =
+      turns ? press / setup.grip.rotational_stiffness + press / setup.rotational_stiffness : press / setup.grip.stiffness + press / setup.stiffness;
   const double before = turns ? -0.01 : -2e-4;
   return [=, slide = situation.slide, direction = situation.press](double time) {
     Pose<double> pose = moved(contact, direction * (before + (beyond - before) * smooth(time / arrival)));
@@ -103,23 +101,21 @@ class SlowRendering {
 }  // namespace
 
 Rest rest_of(const DeviceSpecification& device) noexcept {
-  return {std::max(5e-6, 2 * device.position_resolution), std::max(1e-4, 2 * device.rotation_resolution),
-          0.05 * press_of(device, false), 0.05 * press_of(device, true)};
+  return {std::max(5e-6, 2 * device.position_resolution), std::max(1e-4, 2 * device.rotation_resolution), 0.05 * press_of(device, false),
+          0.05 * press_of(device, true)};
 }
 
 double press_of(const DeviceSpecification& device, bool turns) noexcept {
   return turns ? std::min(0.02, device.continuous_torque / 2) : std::min(1.0, device.continuous_force / 2);
 }
 
-LoopResult run_loop(const Situation& situation, const Pose<double>& contact, const LoopSetup& setup,
-                    bool with_trace) {
+LoopResult run_loop(const Situation& situation, const Pose<double>& contact, const LoopSetup& setup, bool with_trace) {
   const double period = 1 / setup.rate;
   scenes::Scene scene = scene_named(situation.scene);
   scene.hardness = setup.stiffness;
   scene.length = std::sqrt(setup.rotational_stiffness / setup.stiffness);
   const auto rendering = make_rendering(setup.engine, scene, period * setup.divider);
-  if (!rendering)
-    throw std::runtime_error(std::string("the engine ") + name_of(setup.engine) + " was not built");
+  if (!rendering) throw std::runtime_error(std::string("the engine ") + name_of(setup.engine) + " was not built");
 
   SimulatedPhantomSettings phantom_settings;
   phantom_settings.specification = setup.device;
@@ -165,25 +161,21 @@ LoopResult run_loop(const Situation& situation, const Pose<double>& contact, con
     const bool is_kicked = !situation.slides() && state.time >= kick_at && state.time < kick_at + kick_time;
     DeviceWrench written = wrench;
     for (int k = 0; is_kicked && k < 3; ++k)
-      (situation.turns() ? written.torque : written.force)[k] +=
-          setup.kick * (situation.turns() ? 0.02 : 1.0) * press[k];
+      (situation.turns() ? written.torque : written.force)[k] += setup.kick * (situation.turns() ? 0.02 : 1.0) * press[k];
     phantom.write(written);
 
     const Pose<double> exact = from_device<Pose<double>>(phantom.exact_pose());
     const Twist<double> away = motion_between(contact, exact);
     const Vector3<double> force = vector(wrench.force);
-    const Vector3<double> fast = force_filter.step(force),
-                          fast_torque = torque_filter.step(vector(wrench.torque));
-    const bool is_heard =
-        situation.slides() ? state.time >= slide_from : state.time >= 0.35 && state.time < kick_at;
+    const Vector3<double> fast = force_filter.step(force), fast_torque = torque_filter.step(vector(wrench.torque));
+    const bool is_heard = situation.slides() ? state.time >= slide_from : state.time >= 0.35 && state.time < kick_at;
     if (is_heard) {
       force_buzz.add(fast);
       torque_buzz.add(fast_torque);
       result.greatest_force_step = std::max(result.greatest_force_step, (force - last_force).norm());
     }
     last_force = force;
-    if (state.time >= end - 2 * window && state.time < end - window)
-      kicked.add(away.linear), kicked_turn.add(away.angular);
+    if (state.time >= end - 2 * window && state.time < end - window) kicked.add(away.linear), kicked_turn.add(away.angular);
     if (state.time >= end - window) {
       last.add(away.linear), last_turn.add(away.angular);
       last_force_buzz.add(fast), last_torque_buzz.add(fast_torque);
@@ -194,8 +186,8 @@ LoopResult run_loop(const Situation& situation, const Pose<double>& contact, con
       return result;
     }
     if (with_trace) {
-      result.trace.push_back({state.time, press.dot(situation.turns() ? away.angular : away.linear),
-                              press.dot(situation.turns() ? vector(wrench.torque) : force)});
+      result.trace.push_back(
+          {state.time, press.dot(situation.turns() ? away.angular : away.linear), press.dot(situation.turns() ? vector(wrench.torque) : force)});
     }
   }
   const Rest rest = rest_of(setup.device);
@@ -209,11 +201,9 @@ LoopResult run_loop(const Situation& situation, const Pose<double>& contact, con
   result.torque_buzz = torque_buzz.value();
   result.buzz_end = last_force_buzz.value();
   result.torque_buzz_end = last_torque_buzz.value();
-  const bool is_calm = result.buzz_end <= rest.buzz &&
-                       (!setup.device.pushes_torque() || result.torque_buzz_end <= rest.torque_buzz);
+  const bool is_calm = result.buzz_end <= rest.buzz && (!setup.device.pushes_torque() || result.torque_buzz_end <= rest.torque_buzz);
   const bool rests = result.swing_end <= std::max(rest.swing, decay_of_a_stable_loop * result.swing_start);
-  const bool rests_turned =
-      !senses_rotation || result.turn_end <= std::max(rest.turn, decay_of_a_stable_loop * result.turn_start);
+  const bool rests_turned = !senses_rotation || result.turn_end <= std::max(rest.turn, decay_of_a_stable_loop * result.turn_start);
   result.is_stable = result.is_finite && is_calm && rests && rests_turned;
   return result;
 }

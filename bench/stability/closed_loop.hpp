@@ -74,8 +74,7 @@ constexpr double window = 0.8;  ///< [s]
 /// rest or dying, and without a hum in the second window.
 ///
 /// A slide: the hand comes down and goes on at 50 mm/s; what is measured is measured while it slides.
-LoopResult run_loop(const Situation& situation, const Pose<double>& contact, const LoopSetup& setup,
-                    bool with_trace = false);
+LoopResult run_loop(const Situation& situation, const Pose<double>& contact, const LoopSetup& setup, bool with_trace = false);
 
 /// How hard the hand presses: half of what the device can push for ever, at most 1 N and 0.02 N·m.
 double press_of(const DeviceSpecification& device, bool turns) noexcept;

@@ -5,16 +5,14 @@
 
 namespace feeler::stability {
 
-LoopSetup preset_loop(const StudyOptions& options, const DeviceSpecification& device, const Grip& grip,
-                      double rate) {
+LoopSetup preset_loop(const StudyOptions& options, const DeviceSpecification& device, const Grip& grip, double rate) {
   constexpr double length = 0.010;
   LoopSetup setup;
   setup.device = device;
   setup.grip = grip;
   setup.rate = rate;
   setup.stiffness = device.stiffness;
-  setup.rotational_stiffness =
-      device.pushes_torque() ? device.rotational_stiffness : device.stiffness * length * length;
+  setup.rotational_stiffness = device.pushes_torque() ? device.rotational_stiffness : device.stiffness * length * length;
   setup.has_friction = options.has_friction;
   return setup;
 }

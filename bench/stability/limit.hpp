@@ -7,8 +7,7 @@
 namespace feeler::stability {
 
 /// The stiffness of the preset; where no motor turns the handle, a turn is shown as one of 10 mm.
-LoopSetup preset_loop(const StudyOptions& options, const DeviceSpecification& device, const Grip& grip,
-                      double rate);
+LoopSetup preset_loop(const StudyOptions& options, const DeviceSpecification& device, const Grip& grip, double rate);
 
 /// What linear theory knows of a device.
 inline Handle handle_of(const DeviceSpecification& device) noexcept {

@@ -21,12 +21,9 @@ class FeelerRendering final : public Rendering {
       : object_(scene.vertices, scene.triangles), renderer_(object_, tool, scene.settings()) {}
 
   void reset(const Pose<double>& pose) override {
-    if (renderer_.reset(pose) != Status::converged)
-      throw std::runtime_error("a tool is put at a pose where it penetrates");
+    if (renderer_.reset(pose) != Status::converged) throw std::runtime_error("a tool is put at a pose where it penetrates");
   }
-  Wrench<double> update(const Pose<double>& haptic_pose) override {
-    return renderer_.update(haptic_pose).wrench;
-  }
+  Wrench<double> update(const Pose<double>& haptic_pose) override { return renderer_.update(haptic_pose).wrench; }
   bool derivative(std::array<double, 36>& rows) const override {
     const auto derivative = wrench_derivative(renderer_);
     store_derivative(derivative.matrix, rows);
@@ -61,24 +58,18 @@ class RivalRendering final : public Rendering {
 
 const char* name_of(Engine engine) noexcept {
   switch (engine) {
-    case Engine::feeler:
-      return "feeler";
-    case Engine::ode:
-      return "ode";
-    case Engine::ode_damped:
-      return "ode-damped";
-    case Engine::bullet:
-      return "bullet";
-    case Engine::bullet_damped:
-      return "bullet-damped";
+    case Engine::feeler: return "feeler";
+    case Engine::ode: return "ode";
+    case Engine::ode_damped: return "ode-damped";
+    case Engine::bullet: return "bullet";
+    case Engine::bullet_damped: return "bullet-damped";
   }
   return "unknown";
 }
 
 bool is_built(Engine engine) noexcept {
   switch (engine) {
-    case Engine::feeler:
-      return true;
+    case Engine::feeler: return true;
     case Engine::ode:
     case Engine::ode_damped:
 #ifdef FEELER_HAS_ODE
@@ -97,28 +88,24 @@ bool is_built(Engine engine) noexcept {
   return false;
 }
 
-std::unique_ptr<Rendering> make_rendering(Engine engine, const scenes::Scene& scene,
-                                          [[maybe_unused]] double period) {
+std::unique_ptr<Rendering> make_rendering(Engine engine, const scenes::Scene& scene, [[maybe_unused]] double period) {
   return std::visit(
       [&](const auto& tool) -> std::unique_ptr<Rendering> {
         using Tool = std::remove_cvref_t<decltype(tool)>;
         if (engine == Engine::feeler) return std::make_unique<FeelerRendering<Tool>>(scene, tool);
         const double clearance = scene.name == "cavity" ? 1e-3 : std::numeric_limits<double>::infinity();
         [[maybe_unused]] rivals::CoupledScene coupled = rivals::coupled_scene(scene, tool, clearance);
-        [[maybe_unused]] const bool is_damped =
-            engine == Engine::ode_damped || engine == Engine::bullet_damped;
+        [[maybe_unused]] const bool is_damped = engine == Engine::ode_damped || engine == Engine::bullet_damped;
 #ifdef FEELER_HAS_ODE
         if (engine == Engine::ode || engine == Engine::ode_damped) {
-          return std::make_unique<RivalRendering>(
-              std::move(coupled), is_damped,
-              [period](const rivals::CoupledScene& s) { return rivals::make_ode_tool(s, 4, period); });
+          return std::make_unique<RivalRendering>(std::move(coupled), is_damped,
+                                                  [period](const rivals::CoupledScene& s) { return rivals::make_ode_tool(s, 4, period); });
         }
 #endif
 #ifdef FEELER_HAS_BULLET
         if (engine == Engine::bullet || engine == Engine::bullet_damped) {
-          return std::make_unique<RivalRendering>(
-              std::move(coupled), is_damped,
-              [period](const rivals::CoupledScene& s) { return rivals::make_bullet_tool(s, 1, period); });
+          return std::make_unique<RivalRendering>(std::move(coupled), is_damped,
+                                                  [period](const rivals::CoupledScene& s) { return rivals::make_bullet_tool(s, 1, period); });
         }
 #endif
         return nullptr;

@@ -38,8 +38,7 @@ enum class Engine {
   bullet,         ///< as well set as we could, one step a tick; the spring alone is felt
   bullet_damped,  ///< spring and damper
 };
-constexpr std::array<Engine, 5> all_engines = {Engine::feeler, Engine::ode, Engine::ode_damped,
-                                               Engine::bullet, Engine::bullet_damped};
+constexpr std::array<Engine, 5> all_engines = {Engine::feeler, Engine::ode, Engine::ode_damped, Engine::bullet, Engine::bullet_damped};
 
 const char* name_of(Engine engine) noexcept;
 /// Whether it was built: rivals are, where they are installed.

@@ -20,22 +20,18 @@ std::vector<NamedDevice> all_devices() {
           {"virtuose-desktop", virtuose_6d_desktop()}};
 }
 
-std::vector<NamedDevice> devices_of(const StudyOptions& options,
-                                    std::initializer_list<std::string_view> usual) {
+std::vector<NamedDevice> devices_of(const StudyOptions& options, std::initializer_list<std::string_view> usual) {
   const auto holds_name = [](const auto& names, std::string_view name) {
     return names.size() == 0 || std::find(names.begin(), names.end(), name) != names.end();
   };
   std::vector<NamedDevice> devices;
   for (const NamedDevice& device : all_devices()) {
-    if (options.devices.empty() ? holds_name(usual, device.name) : holds_name(options.devices, device.name))
-      devices.push_back(device);
+    if (options.devices.empty() ? holds_name(usual, device.name) : holds_name(options.devices, device.name)) devices.push_back(device);
   }
   return devices;
 }
 
-bool is_wanted(const StudyOptions& options, const NamedGrip& grip) {
-  return options.grip.empty() || options.grip == grip.name;
-}
+bool is_wanted(const StudyOptions& options, const NamedGrip& grip) { return options.grip.empty() || options.grip == grip.name; }
 
 std::vector<NamedGrip> grips_of(const StudyOptions& options) {
   std::vector<NamedGrip> wanted;
@@ -54,8 +50,6 @@ std::vector<Meeting> meetings_of(const StudyOptions& options, const std::vector<
   return meetings;
 }
 
-bool concerns(const DeviceSpecification& device, const Situation& situation) noexcept {
-  return device.pushes_torque() || !situation.turns();
-}
+bool concerns(const DeviceSpecification& device, const Situation& situation) noexcept { return device.pushes_torque() || !situation.turns(); }
 
 }  // namespace feeler::stability

@@ -18,8 +18,7 @@ struct Meeting {
 };
 
 /// The devices asked for; where none was, those of these names, or all where there are no names.
-std::vector<NamedDevice> devices_of(const StudyOptions& options,
-                                    std::initializer_list<std::string_view> usual = {});
+std::vector<NamedDevice> devices_of(const StudyOptions& options, std::initializer_list<std::string_view> usual = {});
 
 /// The grips asked for.
 std::vector<NamedGrip> grips_of(const StudyOptions& options);

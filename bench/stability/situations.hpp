@@ -38,12 +38,8 @@ inline scenes::Scene scene_named(const std::string& name) {
   throw std::invalid_argument("there is no scene named " + name);
 }
 
-inline Twist<double> along(const Vector3<double>& direction) {
-  return {direction.normalized(), Vector3<double>::Zero()};
-}
-inline Twist<double> about(const Vector3<double>& axis) {
-  return {Vector3<double>::Zero(), axis.normalized()};
-}
+inline Twist<double> along(const Vector3<double>& direction) { return {direction.normalized(), Vector3<double>::Zero()}; }
+inline Twist<double> about(const Vector3<double>& axis) { return {Vector3<double>::Zero(), axis.normalized()}; }
 
 /// Faces, edges, corners and fits of every scene, held.
 inline std::vector<Situation> holds() {
@@ -67,22 +63,10 @@ inline std::vector<Situation> holds() {
 inline std::vector<Situation> slides() {
   using scenes::pose_of;
   return {
-      {"cavity",
-       "face along wall into corner",
-       pose_of({0, 0, 0}, {0, 0, 0}),
-       along({0, -1, 0}),
-       {0.015, 0, 0}},
-      {"steps",
-       "tip over ridge into valley",
-       pose_of({0, 0.1, 0}, {0.006, 0, 0.0357}),
-       along({0, 0, -1}),
-       {0.016, 0, 0}},
+      {"cavity", "face along wall into corner", pose_of({0, 0, 0}, {0, 0, 0}), along({0, -1, 0}), {0.015, 0, 0}},
+      {"steps", "tip over ridge into valley", pose_of({0, 0.1, 0}, {0.006, 0, 0.0357}), along({0, 0, -1}), {0.016, 0, 0}},
       {"plate", "face over rim", pose_of({0, 0.1, 0}, {0.035, 0, 0.0050}), along({0, 0, -1}), {0.020, 0, 0}},
-      {"terrain",
-       "pebble over bumps",
-       pose_of({0.1, 0.2, 0.3}, {0.0, 0.0, 0.0200}),
-       along({0, 0, -1}),
-       {0.020, 0, 0}},
+      {"terrain", "pebble over bumps", pose_of({0.1, 0.2, 0.3}, {0.0, 0.0, 0.0200}), along({0, 0, -1}), {0.020, 0, 0}},
   };
 }
 

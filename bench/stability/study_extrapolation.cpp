@@ -14,13 +14,12 @@ struct Host {
   Handover handover;
   int divider, latency;
 };
-constexpr Host hosts[] = {
-    {"1 kHz", 1000, Handover::direct, 1, 0},
-    {"4 kHz, renderer at 1 kHz, held, 1 tick late", 4000, Handover::held, 4, 1},
-    {"4 kHz, renderer at 1 kHz, held, 4 ticks late", 4000, Handover::held, 4, 4},
-    {"4 kHz, renderer at 1 kHz, extrapolated, 1 tick late", 4000, Handover::extrapolated, 4, 1},
-    {"4 kHz, renderer at 1 kHz, extrapolated, 4 ticks late", 4000, Handover::extrapolated, 4, 4},
-    {"4 kHz", 4000, Handover::direct, 1, 0}};
+constexpr Host hosts[] = {{"1 kHz", 1000, Handover::direct, 1, 0},
+                          {"4 kHz, renderer at 1 kHz, held, 1 tick late", 4000, Handover::held, 4, 1},
+                          {"4 kHz, renderer at 1 kHz, held, 4 ticks late", 4000, Handover::held, 4, 4},
+                          {"4 kHz, renderer at 1 kHz, extrapolated, 1 tick late", 4000, Handover::extrapolated, 4, 1},
+                          {"4 kHz, renderer at 1 kHz, extrapolated, 4 ticks late", 4000, Handover::extrapolated, 4, 4},
+                          {"4 kHz", 4000, Handover::direct, 1, 0}};
 
 }  // namespace
 
@@ -47,8 +46,8 @@ void study_extrapolation(const StudyOptions& options) {
           setup.latency = host.latency;
           const double limit = limit_of(meeting, setup);
           if (!hold.turns()) limits.push_back(limit);
-          csv.print("%s,\"%s\",%s,%s,%s,%s,%.4g\n", named.name.c_str(), host.name, grip.name,
-                    hold.scene.c_str(), hold.name.c_str(), unit_of(hold), limit);
+          csv.print("%s,\"%s\",%s,%s,%s,%s,%.4g\n", named.name.c_str(), host.name, grip.name, hold.scene.c_str(), hold.name.c_str(), unit_of(hold),
+                    limit);
         }
         std::sort(limits.begin(), limits.end());
         table.print(" %.0f |", limits.empty() ? 0.0 : limits.front());

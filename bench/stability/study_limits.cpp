@@ -17,9 +17,8 @@ struct LeastLimits {
   std::array<double, grips.size()> translational = {}, rotational = {};
 };
 
-LeastLimits least_limits(const StudyOptions& options, const NamedDevice& named, double rate,
-                         const StiffnessLimits& bounds, const std::vector<Meeting>& meetings,
-                         demo::TextFile& csv) {
+LeastLimits least_limits(const StudyOptions& options, const NamedDevice& named, double rate, const StiffnessLimits& bounds,
+                         const std::vector<Meeting>& meetings, demo::TextFile& csv) {
   const DeviceSpecification& device = named.device;
   LeastLimits least;
   for (std::size_t g = 0; g < grips.size(); ++g) {
@@ -31,11 +30,9 @@ LeastLimits least_limits(const StudyOptions& options, const NamedDevice& named, 
       const double limit = limit_of(meeting, preset_loop(options, device, grips[g].grip, rate));
       (hold.turns() ? torques : forces).add(limit);
       const double theory = hold.turns() ? 0 : linear_limit(handle_of(device), grips[g].grip, 1 / rate);
-      csv.print("%s,%g,%s,%s,%s,%s,%.4g,%g,%.4g,%.4g,%.4g\n", named.name.c_str(), rate, grips[g].name,
-                hold.scene.c_str(), hold.name.c_str(), unit_of(hold), limit,
-                hold.turns() ? device.rotational_stiffness : device.stiffness,
-                hold.turns() ? bounds.rotational_passive : bounds.passive,
-                hold.turns() ? 0.0 : bounds.quantised, theory);
+      csv.print("%s,%g,%s,%s,%s,%s,%.4g,%g,%.4g,%.4g,%.4g\n", named.name.c_str(), rate, grips[g].name, hold.scene.c_str(), hold.name.c_str(),
+                unit_of(hold), limit, hold.turns() ? device.rotational_stiffness : device.stiffness,
+                hold.turns() ? bounds.rotational_passive : bounds.passive, hold.turns() ? 0.0 : bounds.quantised, theory);
     }
     least.translational[g] = std::isfinite(forces.low) ? forces.low : 0;
     least.rotational[g] = std::isfinite(torques.low) ? torques.low : 0;
@@ -50,8 +47,7 @@ void print_width(const DeviceSpecification& device, double rate, double stiffest
   const double damper = device.damping + 4 * device.friction / (std::numbers::pi * amplitude * pace);
   const double lowest = std::hypot(damper, pace * device.apparent_mass);
   const double highest = std::hypot(damper, pace * device.apparent_mass - stiffest / pace);
-  width.print("| %s | %g | %.2f | %.0f | %.0f |\n", device.name.c_str(), rate / 1000, lowest, highest,
-              20 * std::log10(highest / lowest));
+  width.print("| %s | %g | %.2f | %.0f | %.0f |\n", device.name.c_str(), rate / 1000, lowest, highest, 20 * std::log10(highest / lowest));
 }
 
 }  // namespace
@@ -66,8 +62,7 @@ void study_limits(const StudyOptions& options) {
       "barely | soft | relaxed | firm |\n"
       "|---|---|---|---|---|---|---|---|---|---|---|---|---|---|\n");
   demo::TextFile width(options.folder / "zwidth.md");
-  width.print(
-      "| device | rate [kHz] | lowest [N·s/m] | highest [N·s/m] | Z-width [dB] |\n|---|---|---|---|---|\n");
+  width.print("| device | rate [kHz] | lowest [N·s/m] | highest [N·s/m] | Z-width [dB] |\n|---|---|---|---|---|\n");
   demo::TextFile plot(options.folder / "limits_by_rate.csv");
   plot.print("device,rate,barely,soft,relaxed,firm,passive\n");
   for (const NamedDevice& named : devices_of(options)) {
@@ -75,8 +70,7 @@ void study_limits(const StudyOptions& options) {
     for (const double rate : options.rates) {
       const StiffnessLimits bounds = stiffness_limits_of(device, 1 / rate);
       const LeastLimits least = least_limits(options, named, rate, bounds, meetings, csv);
-      table.print("| %s | %g | %g | %.0f | %.0f |", device.name.c_str(), rate / 1000, device.stiffness,
-                  bounds.passive, bounds.quantised);
+      table.print("| %s | %g | %g | %.0f | %.0f |", device.name.c_str(), rate / 1000, device.stiffness, bounds.passive, bounds.quantised);
       for (const double limit : least.translational) table.print(" %.0f |", limit);
       if (device.pushes_torque()) {
         table.print(" %g |", device.rotational_stiffness);

@@ -20,18 +20,16 @@ void study_passivity(const StudyOptions& options) {
         LoopSetup setup = preset_loop(options, named.device, grip.grip, 1000);
         setup.is_passive = is_passive;
         for (const Meeting& meeting : meetings) {
-          if (!meeting.situation.turns())
-            least[is_passive] = std::min(least[is_passive], limit_of(meeting, setup));
+          if (!meeting.situation.turns()) least[is_passive] = std::min(least[is_passive], limit_of(meeting, setup));
         }
         setup.stiffness = 2 * least[0];
         for (const Meeting& meeting : meetings) {
           if (!meeting.situation.turns())
-            swing[is_passive] =
-                std::max(swing[is_passive], run_loop(meeting.situation, meeting.contact, setup).swing_end);
+            swing[is_passive] = std::max(swing[is_passive], run_loop(meeting.situation, meeting.contact, setup).swing_end);
         }
       }
-      table.print("| %s | %s | %.0f | %.0f | %.0f | %.0f |\n", named.device.name.c_str(), grip.name, least[0],
-                  least[1], 1e6 * swing[0], 1e6 * swing[1]);
+      table.print("| %s | %s | %.0f | %.0f | %.0f | %.0f |\n", named.device.name.c_str(), grip.name, least[0], least[1], 1e6 * swing[0],
+                  1e6 * swing[1]);
       say("passivity", named.name + ", " + grip.name);
     }
   }

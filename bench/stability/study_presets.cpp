@@ -20,8 +20,8 @@ class PresetRow {
   /// @return loops that were not stable
   int run(const std::vector<Meeting>& meetings, demo::TextFile& csv, demo::TextFile& table) {
     const DeviceSpecification& device = named_.device;
-    table.print("| %s | %g | %g | %g%s |", device.name.c_str(), rate_ / 1000, device.stiffness,
-                rotational_stiffness_, device.pushes_torque() ? "" : " (shown)");
+    table.print("| %s | %g | %g | %g%s |", device.name.c_str(), rate_ / 1000, device.stiffness, rotational_stiffness_,
+                device.pushes_torque() ? "" : " (shown)");
     int unstable = 0;
     for (const NamedGrip& grip : grips) {
       int loops = 0, stable = 0;
@@ -33,8 +33,7 @@ class PresetRow {
       unstable += loops - stable;
       table.print(" %d of %d |", stable, loops);
     }
-    table.print(" %.2g | %.2g | %.2g | %.2g |\n", shown(1e6 * swing_), shown(1e3 * turn_), shown(1e3 * buzz_),
-                shown(1e3 * torque_buzz_));
+    table.print(" %.2g | %.2g | %.2g | %.2g |\n", shown(1e6 * swing_), shown(1e3 * turn_), shown(1e3 * buzz_), shown(1e3 * torque_buzz_));
     say("presets", at_rate(named_.name, rate_));
     return unstable;
   }
@@ -47,18 +46,15 @@ class PresetRow {
     const char* const scene = meeting.situation.scene.c_str();
     const char* const hold = meeting.situation.name.c_str();
     if (!result.is_stable) {
-      std::printf("not stable: %s at %g Hz, %g N/m, %g N·m/rad, %s, %s, %s: %.3g µm, %.3g mrad\n",
-                  named_.name.c_str(), rate_, setup.stiffness, rotational_stiffness_, grip.name, scene, hold,
-                  1e6 * result.swing_end, 1e3 * result.turn_end);
+      std::printf("not stable: %s at %g Hz, %g N/m, %g N·m/rad, %s, %s, %s: %.3g µm, %.3g mrad\n", named_.name.c_str(), rate_, setup.stiffness,
+                  rotational_stiffness_, grip.name, scene, hold, 1e6 * result.swing_end, 1e3 * result.turn_end);
     }
-    csv.print("%s,%g,%g,%g,%s,%s,%s,%d,%.4g,%.4g,%.4g,%.4g\n", named_.name.c_str(), rate_, setup.stiffness,
-              rotational_stiffness_, grip.name, scene, hold, int(result.is_stable), 1e6 * result.swing_end,
-              1e3 * result.turn_end, result.buzz, result.torque_buzz);
+    csv.print("%s,%g,%g,%g,%s,%s,%s,%d,%.4g,%.4g,%.4g,%.4g\n", named_.name.c_str(), rate_, setup.stiffness, rotational_stiffness_, grip.name, scene,
+              hold, int(result.is_stable), 1e6 * result.swing_end, 1e3 * result.turn_end, result.buzz, result.torque_buzz);
     if (grip.name == std::string("barely")) return result.is_stable;  // it swings by itself for seconds
     swing_ = std::max(swing_, result.swing_end);
     buzz_ = std::max(buzz_, result.buzz);
-    if (named_.device.pushes_torque())
-      turn_ = std::max(turn_, result.turn_end), torque_buzz_ = std::max(torque_buzz_, result.torque_buzz);
+    if (named_.device.pushes_torque()) turn_ = std::max(turn_, result.turn_end), torque_buzz_ = std::max(torque_buzz_, result.torque_buzz);
     return result.is_stable;
   }
 
@@ -87,8 +83,7 @@ int study_presets(const StudyOptions& options) {
     std::vector<double> rotational = {preset_loop(options, named.device, {}, 1000).rotational_stiffness};
     if (named.name == "premium-3.0") rotational.push_back(papers_rotational_stiffness);
     for (const double rate : std::set<double>{named.device.nominal_rate, named.device.maximum_rate}) {
-      for (const double stiffness : rotational)
-        unstable += PresetRow(options, named, rate, stiffness).run(meetings, csv, table);
+      for (const double stiffness : rotational) unstable += PresetRow(options, named, rate, stiffness).run(meetings, csv, table);
     }
   }
   csv.close();

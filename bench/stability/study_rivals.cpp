@@ -40,15 +40,12 @@ void study_rivals(const StudyOptions& options) {
           stable += at_preset.is_stable;
           swing = std::max(swing, at_preset.swing_end);
           buzz = std::max(buzz, at_preset.buzz);
-          csv.print("%s,%s,%s,%s,%s,%s,%.4g,%g,%d,%.4g,%.4g,%.4g,%.4g\n", named.name.c_str(), name_of(engine),
-                    grip.name, hold.scene.c_str(), hold.name.c_str(), unit_of(hold), limit,
-                    hold.turns() ? setup.rotational_stiffness : setup.stiffness, int(at_preset.is_stable),
-                    1e6 * at_preset.swing_end, 1e3 * at_preset.turn_end, at_preset.buzz,
-                    at_preset.torque_buzz);
+          csv.print("%s,%s,%s,%s,%s,%s,%.4g,%g,%d,%.4g,%.4g,%.4g,%.4g\n", named.name.c_str(), name_of(engine), grip.name, hold.scene.c_str(),
+                    hold.name.c_str(), unit_of(hold), limit, hold.turns() ? setup.rotational_stiffness : setup.stiffness, int(at_preset.is_stable),
+                    1e6 * at_preset.swing_end, 1e3 * at_preset.turn_end, at_preset.buzz, at_preset.torque_buzz);
         }
-        table.print("| %s | %s | %d of %d | %.0f to %.0f | %.2g to %.2g | %.3g | %.3g |\n", name_of(engine),
-                    grip.name, stable, loops, forces.low, forces.high, torques.low, torques.high,
-                    shown(1e6 * swing), 1e3 * buzz);
+        table.print("| %s | %s | %d of %d | %.0f to %.0f | %.2g to %.2g | %.3g | %.3g |\n", name_of(engine), grip.name, stable, loops, forces.low,
+                    forces.high, torques.low, torques.high, shown(1e6 * swing), 1e3 * buzz);
       }
       say("rivals", named.name + ", " + name_of(engine));
     }
@@ -78,14 +75,13 @@ void study_slides(const StudyOptions& options) {
             LoopSetup setup = preset_loop(options, named.device, grip.grip, rate);
             setup.engine = engine;
             const LoopResult result = run_loop(slide, meeting.contact, setup);
-            csv.print("%s,%s,%g,%s,%s,%s,%.4g,%.4g,%.4g\n", named.name.c_str(), name_of(engine), rate,
-                      grip.name, slide.scene.c_str(), slide.name.c_str(), result.buzz, result.torque_buzz,
-                      result.greatest_force_step);
+            csv.print("%s,%s,%g,%s,%s,%s,%.4g,%.4g,%.4g\n", named.name.c_str(), name_of(engine), rate, grip.name, slide.scene.c_str(),
+                      slide.name.c_str(), result.buzz, result.torque_buzz, result.greatest_force_step);
             buzzes += rounded_cell(1e3 * result.buzz);
             steps += rounded_cell(1e3 * result.greatest_force_step);
           }
-          table.print("| %s, %s | %s | %g |%s%s\n", slide.scene.c_str(), slide.name.c_str(), name_of(engine),
-                      rate / 1000, buzzes.c_str(), steps.c_str());
+          table.print("| %s, %s | %s | %g |%s%s\n", slide.scene.c_str(), slide.name.c_str(), name_of(engine), rate / 1000, buzzes.c_str(),
+                      steps.c_str());
         }
       }
       say("slides", slide.scene + ", " + slide.name);

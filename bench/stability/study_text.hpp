@@ -11,9 +11,7 @@
 
 namespace feeler::stability {
 
-inline const char* unit_of(const Situation& situation) noexcept {
-  return situation.turns() ? "N·m/rad" : "N/m";
-}
+inline const char* unit_of(const Situation& situation) noexcept { return situation.turns() ? "N·m/rad" : "N/m"; }
 
 /// Least and largest of what was seen.
 struct Range {
@@ -22,9 +20,7 @@ struct Range {
 };
 
 /// For tables: what is nothing but rounding is nothing.
-inline double shown(double value) noexcept {
-  return std::abs(value) < 1e-3 ? 0.0 : value;
-}
+inline double shown(double value) noexcept { return std::abs(value) < 1e-3 ? 0.0 : value; }
 
 /// A cell of a table, without decimals.
 inline std::string rounded_cell(double value) {
@@ -33,9 +29,7 @@ inline std::string rounded_cell(double value) {
   return text;
 }
 
-inline std::string at_rate(const std::string& what, double rate) {
-  return what + " at " + std::to_string(int(rate)) + " Hz";
-}
+inline std::string at_rate(const std::string& what, double rate) { return what + " at " + std::to_string(int(rate)) + " Hz"; }
 
 inline void say(const char* what, const std::string& of) {
   std::printf("%s: %s\n", what, of.c_str());

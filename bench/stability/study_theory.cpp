@@ -32,15 +32,13 @@ int study_theory(const StudyOptions& options) {
       setup.device.position_resolution = setup.device.rotation_resolution = 0;
       setup.device.maximum_force = 1e6;  // nothing may bend the loop,
       setup.kick = 0.02;                 // and the tool not leave the wall
-      const double theory = linear_limit(handle_of(setup.device), grip.grip, 1 / rate,
-                                         std::pow(decay_of_a_stable_loop, 1 / window));
+      const double theory = linear_limit(handle_of(setup.device), grip.grip, 1 / rate, std::pow(decay_of_a_stable_loop, 1 / window));
       setup.stiffness = theory;
       setup.rotational_stiffness = 1e-4 * theory;
       const double simulated = limit_of(meeting, setup);
       const double difference = simulated / theory - 1;
       if (!(std::abs(difference) <= tolerance)) ++disagreements;
-      table.print("| %s | %g | %.0f | %.0f | %.1f |\n", grip.name, rate / 1000, theory, simulated,
-                  100 * difference);
+      table.print("| %s | %g | %.0f | %.0f | %.1f |\n", grip.name, rate / 1000, theory, simulated, 100 * difference);
       say("theory", at_rate(grip.name, rate) + ": " + std::to_string(100 * difference) + " %");
     }
   }

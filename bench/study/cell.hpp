@@ -20,8 +20,8 @@ struct Cell {
   /// Names the cell in the files and in filters.
   std::string key() const {
     char text[256];
-    std::snprintf(text, sizeof text, "%s/%s/margin=%g/budget=%d/iterations=%d/rate=%d/scale=%g/offset=%g", scene.c_str(), rendering.c_str(), margin, budget,
-                  iterations, rate, scale, offset);
+    std::snprintf(text, sizeof text, "%s/%s/margin=%g/budget=%d/iterations=%d/rate=%d/scale=%g/offset=%g", scene.c_str(), rendering.c_str(), margin,
+                  budget, iterations, rate, scale, offset);
     return text;
   }
 };

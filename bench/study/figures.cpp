@@ -56,18 +56,21 @@ std::string panel(const std::vector<Row>& rows, const Choice& choice, int panel_
     if (at == families.end()) families.push_back(family), at = families.end() - 1;
     const bool is_first = named.insert(family).second;
     data += block(name, points);
-    plot += (plot.empty() ? "plot " : ", ") + ("$" + name) + " using 1:2 with linespoints pt 7 ps 0.4 lw 1.6 lc rgb '" + colours[std::size_t(at - families.begin()) % colours.size()] + "' " +
+    plot += (plot.empty() ? "plot " : ", ") + ("$" + name) + " using 1:2 with linespoints pt 7 ps 0.4 lw 1.6 lc rgb '" +
+            colours[std::size_t(at - families.begin()) % colours.size()] + "' " +
             (is_first && panel_number == 0 ? "title '" + family + "'" : "notitle");
   }
   if (plot.empty()) return "";
   char standard[120];
-  std::snprintf(standard, sizeof standard, "set arrow 1 from %g, graph 0 to %g, graph 1 nohead dt 3 lc rgb '#888888'\n", choice.standard, choice.standard);
+  std::snprintf(standard, sizeof standard, "set arrow 1 from %g, graph 0 to %g, graph 1 nohead dt 3 lc rgb '#888888'\n", choice.standard,
+                choice.standard);
   return data + "set xlabel '" + choice.label + "'\n" + standard + plot + "\n";
 }
 
 bool draw_sweeps(const fs::path& folder, const std::vector<Row>& rows) {
-  std::string body = "set logscale xy; set yrange [1e-9:1e-2]; set format y '10^{%L}'; set ylabel 'error, p99  [m]'\nset multiplot layout 2,2 margins 0.09,0.97,0.09,0.88 spacing 0.1,0.13\n"
-                     "set key at screen 0.97, 0.99 horizontal maxrows 3\n";
+  std::string body =
+      "set logscale xy; set yrange [1e-9:1e-2]; set format y '10^{%L}'; set ylabel 'error, p99  [m]'\nset multiplot layout 2,2 margins 0.09,0.97,0.09,0.88 spacing 0.1,0.13\n"
+      "set key at screen 0.97, 0.99 horizontal maxrows 3\n";
   int count = 0;
   for (std::size_t i = 0; i < 4; ++i) {
     const std::string one = panel(rows, choices[i], count);
@@ -81,7 +84,9 @@ bool draw_sweeps(const fs::path& folder, const std::vector<Row>& rows) {
 bool draw_fronts(const fs::path& folder, const std::vector<Row>& rows, const std::vector<Row>& times) {
   std::map<std::string, std::vector<std::pair<double, double>>> by_scene, standard;
   for (const Row& row : rows) {
-    if (!is_measured(row) || text(row, "rendering") != "double" || number(row, "scale") != 1 || number(row, "offset_m") != 0 || number(row, "rate_hz") != Cell().rate) continue;
+    if (!is_measured(row) || text(row, "rendering") != "double" || number(row, "scale") != 1 || number(row, "offset_m") != 0 ||
+        number(row, "rate_hz") != Cell().rate)
+      continue;
     const std::pair point(std::max(number(times_of(row, times), "time_p99_us"), 0.1), std::max(number(row, "error_p99_m"), 1e-9));
     by_scene[text(row, "scene")].push_back(point);
     if (is_standard_but_for(row, "")) standard[text(row, "scene")] = {point};
@@ -89,8 +94,8 @@ bool draw_fronts(const fs::path& folder, const std::vector<Row>& rows, const std
   std::erase_if(by_scene, [](const auto& scene) { return scene.second.size() < 6; });
   if (by_scene.empty()) return true;
   const int columns = 4, lines = (int(by_scene.size()) + columns - 1) / columns;
-  std::string body = "set logscale xy; set format y '10^{%L}'; set xrange [1:1000]; set yrange [1e-8:1e-2]; unset key\nset multiplot layout " + std::to_string(lines) + "," + std::to_string(columns) +
-                     " margins 0.06,0.98,0.08,0.95 spacing 0.045,0.08\n";
+  std::string body = "set logscale xy; set format y '10^{%L}'; set xrange [1:1000]; set yrange [1e-8:1e-2]; unset key\nset multiplot layout " +
+                     std::to_string(lines) + "," + std::to_string(columns) + " margins 0.06,0.98,0.08,0.95 spacing 0.045,0.08\n";
   int count = 0;
   for (auto& [scene, points] : by_scene) {
     std::sort(points.begin(), points.end());
@@ -98,35 +103,42 @@ bool draw_fronts(const fs::path& folder, const std::vector<Row>& rows, const std
     for (const auto& point : points)
       if (front.empty() || point.second < front.back().second) front.push_back(point);
     const std::string name = "f" + std::to_string(count);
-    body += block(name, points) + block(name + "_front", front) + block(name + "_standard", standard[scene]) + "set title '" + legible(scene) + "' offset 0,-0.7\n" +
-            (count % columns == 0 ? "set ylabel 'error, p99  [m]'\n" : "unset ylabel\n") + (count >= int(by_scene.size()) - columns ? "set xlabel 'time, p99  [µs]'\n" : "unset xlabel\n") + "plot $" + name +
-            " using 1:2 with points pt 7 ps 0.35 lc rgb '#9db8d6', $" + name + "_front using 1:2 with steps lw 1.6 lc rgb blue, $" + name + "_standard using 1:2 with points pt 7 ps 0.9 lc rgb red\n";
+    body += block(name, points) + block(name + "_front", front) + block(name + "_standard", standard[scene]) + "set title '" + legible(scene) +
+            "' offset 0,-0.7\n" + (count % columns == 0 ? "set ylabel 'error, p99  [m]'\n" : "unset ylabel\n") +
+            (count >= int(by_scene.size()) - columns ? "set xlabel 'time, p99  [µs]'\n" : "unset xlabel\n") + "plot $" + name +
+            " using 1:2 with points pt 7 ps 0.35 lc rgb '#9db8d6', $" + name + "_front using 1:2 with steps lw 1.6 lc rgb blue, $" + name +
+            "_standard using 1:2 with points pt 7 ps 0.9 lc rgb red\n";
     ++count;
   }
   return experiments::draw(folder, "study_fronts", 1200, 200 * lines + 80, body + "unset multiplot\n");
 }
 
 bool draw_scalars(const fs::path& folder, const std::vector<Row>& rows) {
-  std::string body = "set logscale xy; set format '10^{%L}'; set yrange [1e-16:1e0]\nset multiplot layout 1,2 margins 0.09,0.97,0.15,0.84 spacing 0.1\nset key at screen 0.97, 0.99 horizontal maxrows 2\n";
+  std::string body =
+      "set logscale xy; set format '10^{%L}'; set yrange [1e-16:1e0]\nset multiplot layout 1,2 margins 0.09,0.97,0.15,0.84 spacing 0.1\nset key at screen 0.97, 0.99 horizontal maxrows 2\n";
   int count = 0;
   for (const std::size_t i : {std::size_t(5), std::size_t(4)}) {
     std::string data, plot;
     int lines = 0;
-    for (const auto& [rendering, colour] : {std::pair("float", "#c8322b"), std::pair("double", "#2f6db5"), std::pair("long_double", "#2e8b57"), std::pair("quad", "#e08e0b")}) {
+    for (const auto& [rendering, colour] :
+         {std::pair("float", "#c8322b"), std::pair("double", "#2f6db5"), std::pair("long_double", "#2e8b57"), std::pair("quad", "#e08e0b")}) {
       std::map<double, double> worst;
       for (const Row& row : rows)
         if (is_measured(row) && text(row, "rendering") == rendering && is_standard_but_for(row, choices[i].column)) {
           if (!std::set<std::string>{"bore_24", "plate_2", "wedge_4"}.contains(text(row, "scene"))) continue;
-          double& most = worst[std::string(choices[i].column) == "offset_m" ? std::max(number(row, choices[i].column), 0.1) : number(row, choices[i].column)];
+          double& most =
+              worst[std::string(choices[i].column) == "offset_m" ? std::max(number(row, choices[i].column), 0.1) : number(row, choices[i].column)];
           most = std::max({most, number(row, "solver_error_p99_m"), 1e-16});
         }
       if (worst.size() < 2) continue;
       const std::string name = "s" + std::to_string(i) + "_" + std::to_string(lines++);
       data += block(name, {worst.begin(), worst.end()});
-      plot += (plot.empty() ? "plot $" : ", $") + name + " using 1:2 with linespoints pt 7 ps 0.6 lw 1.8 lc rgb '" + colour + "' " + (count == 0 ? "title '" + legible(rendering) + "'" : "notitle");
+      plot += (plot.empty() ? "plot $" : ", $") + name + " using 1:2 with linespoints pt 7 ps 0.6 lw 1.8 lc rgb '" + colour + "' " +
+              (count == 0 ? "title '" + legible(rendering) + "'" : "notitle");
     }
     if (plot.empty()) continue;
-    body += data + "set xlabel '" + choices[i].label + "'\nset ylabel '" + (count == 0 ? "off the minimum, p99, worst scene  [m]" : "") + "'\n" + plot + "\n";
+    body += data + "set xlabel '" + choices[i].label + "'\nset ylabel '" + (count == 0 ? "off the minimum, p99, worst scene  [m]" : "") + "'\n" +
+            plot + "\n";
     ++count;
   }
   return count == 0 || experiments::draw(folder, "study_scalars", 1000, 420, body + "unset multiplot\n");

@@ -60,8 +60,11 @@ const TruthPath& TruthPaths::of(const StudyScene& scene, const Cell& cell, const
     const auto wide = [](const Real& x) { return static_cast<Wide>(x); };
     const auto& rotation = nearest->pose.rotation;
     path.samples.push_back({time,
-                            {nearest->pose.translation.unaryExpr(wide), Quaternion<Wide>(wide(rotation.w()), wide(rotation.x()), wide(rotation.y()), wide(rotation.z()))},
-                            nearest->force.unaryExpr(wide), nearest->torque.unaryExpr(wide), !nearest->active.empty()});
+                            {nearest->pose.translation.unaryExpr(wide),
+                             Quaternion<Wide>(wide(rotation.w()), wide(rotation.x()), wide(rotation.y()), wide(rotation.z()))},
+                            nearest->force.unaryExpr(wide),
+                            nearest->torque.unaryExpr(wide),
+                            !nearest->active.empty()});
   }
   return made_.emplace(key, std::move(path)).first->second;
 }
@@ -111,7 +114,8 @@ CellFigures figures_of(const Cell& cell, double seconds, unsigned seed, TruthPat
       times.push_back(reading.microseconds);
     }
     if (k % (cell.rate / TruthPath::samples_a_second) == 0)
-      for (const auto& piece : pieces) figures.deepest = std::max(figures.deepest, double(test::deepest_penetration(object, piece, test::checked_pose(reading.pose)).depth));
+      for (const auto& piece : pieces)
+        figures.deepest = std::max(figures.deepest, double(test::deepest_penetration(object, piece, test::checked_pose(reading.pose)).depth));
     if (const auto* own = sample_at(*own_path, time, next_own)) solver_errors.push_back(largest_distance(scene, reading.pose, own->pose));
     const auto* found = sample_at(*path, time, next);
     if (found == nullptr) continue;
@@ -126,7 +130,9 @@ CellFigures figures_of(const Cell& cell, double seconds, unsigned seed, TruthPat
       separations.push_back(std::min(double(truth.distance(pose, reach)), reach));
     }
   }
-  const auto share_within = [&](double most) { return errors.empty() ? 0 : double(std::count_if(errors.begin(), errors.end(), [most](double e) { return e <= most; })) / double(errors.size()); };
+  const auto share_within = [&](double most) {
+    return errors.empty() ? 0 : double(std::count_if(errors.begin(), errors.end(), [most](double e) { return e <= most; })) / double(errors.size());
+  };
   using bench::quantile;
   figures.samples = int(errors.size());
   figures.samples_without_truth = path->missing;
@@ -141,7 +147,8 @@ CellFigures figures_of(const Cell& cell, double seconds, unsigned seed, TruthPat
   figures.jitter_99 = quantile(jitters, 0.99);
   figures.lag = double(longest_run) / cell.rate;
   figures.work_median = quantile(work, 0.5), figures.work_99 = quantile(work, 0.99), figures.work_most = quantile(work, 1);
-  figures.time_median = quantile(times, 0.5), figures.time_99 = quantile(times, 0.99), figures.time_999 = quantile(times, 0.999), figures.time_most = quantile(times, 1);
+  figures.time_median = quantile(times, 0.5), figures.time_99 = quantile(times, 0.99), figures.time_999 = quantile(times, 0.999),
+  figures.time_most = quantile(times, 1);
   return figures;
 }
 

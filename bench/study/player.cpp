@@ -16,13 +16,16 @@ const std::vector<Rendering>& renderings() { return registered(); }
 const Rendering& rendering(const std::string& name) {
   const auto& list = registered();
   const auto found = std::find_if(list.begin(), list.end(), [&](const Rendering& r) { return r.name == name; });
-  if (found == list.end()) throw std::invalid_argument("The rendering " + name + " is not compiled in; configure with -DFEELER_STUDY_RENDERINGS=all, or see --list.");
+  if (found == list.end())
+    throw std::invalid_argument("The rendering " + name + " is not compiled in; configure with -DFEELER_STUDY_RENDERINGS=all, or see --list.");
   return *found;
 }
 
 Registration::Registration(Rendering rendering) {
   auto& list = registered();
-  const auto comes_first = [](const Rendering& a, const Rendering& b) { return std::pair(a.name != "double", a.name) < std::pair(b.name != "double", b.name); };
+  const auto comes_first = [](const Rendering& a, const Rendering& b) {
+    return std::pair(a.name != "double", a.name) < std::pair(b.name != "double", b.name);
+  };
   list.insert(std::upper_bound(list.begin(), list.end(), rendering, comes_first), std::move(rendering));
 }
 

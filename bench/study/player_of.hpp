@@ -29,8 +29,14 @@ class PlayerOf final : public Player {
     const double end = bench::thread_time();
     const auto wide = [](const Vector3<Scalar>& v) { return Vector3<Wide>(v.unaryExpr([](const Scalar& x) { return static_cast<Wide>(x); })); };
     const auto& rotation = tick.graphic_pose.rotation;
-    return {{wide(tick.graphic_pose.translation), Quaternion<Wide>(static_cast<Wide>(rotation.w()), static_cast<Wide>(rotation.x()), static_cast<Wide>(rotation.y()), static_cast<Wide>(rotation.z()))},
-            wide(tick.wrench.force), wide(tick.wrench.torque), tick.status, tick.work, tick.path.empty(), end - begin};
+    return {{wide(tick.graphic_pose.translation), Quaternion<Wide>(static_cast<Wide>(rotation.w()), static_cast<Wide>(rotation.x()),
+                                                                   static_cast<Wide>(rotation.y()), static_cast<Wide>(rotation.z()))},
+            wide(tick.wrench.force),
+            wide(tick.wrench.torque),
+            tick.status,
+            tick.work,
+            tick.path.empty(),
+            end - begin};
   }
 
  private:

@@ -27,8 +27,12 @@ struct Scenery {
   std::vector<test::CheckedTool> pieces;
 };
 
-test::WideVector wide(const Vector3<Real>& v) { return v.unaryExpr([](const Real& x) { return static_cast<Wide>(x); }); }
-Quaternion<Wide> wide(const Quaternion<Real>& q) { return {static_cast<Wide>(q.w()), static_cast<Wide>(q.x()), static_cast<Wide>(q.y()), static_cast<Wide>(q.z())}; }
+test::WideVector wide(const Vector3<Real>& v) {
+  return v.unaryExpr([](const Real& x) { return static_cast<Wide>(x); });
+}
+Quaternion<Wide> wide(const Quaternion<Real>& q) {
+  return {static_cast<Wide>(q.w()), static_cast<Wide>(q.x()), static_cast<Wide>(q.y()), static_cast<Wide>(q.z())};
+}
 
 /// Free poses about a minimum that are nearer to the hand. A step is tried at random, and again turned so that it lowers the energy.
 std::pair<int, int> search_around(std::mt19937& bits, const Scenery& scenery, const Pose<double>& hand, const NearestPose& minimum) {
@@ -90,7 +94,8 @@ void compare_with_formulas(std::mt19937& bits, ProofFigures& figures) {
     }
     const Truth truth(scene);
     const double angle = kind == 1 ? 0.1 + 0.6 * fuzz::fraction(bits) : 0;
-    Pose<double> hand{shift + Vector3<double>(0.002 * fuzz::unit(bits), 0.002 * fuzz::unit(bits), -0.003 * fuzz::fraction(bits)), exp_rotation<double>({angle, 0, 0})};
+    Pose<double> hand{shift + Vector3<double>(0.002 * fuzz::unit(bits), 0.002 * fuzz::unit(bits), -0.003 * fuzz::fraction(bits)),
+                      exp_rotation<double>({angle, 0, 0})};
     if (kind == 2) hand.translation = shift - 0.003 * Vector3<double>(fuzz::fraction(bits), fuzz::fraction(bits), fuzz::fraction(bits));
     Vector3<Real> place = hand.translation.cast<Real>();
     Real turn = 0;
@@ -100,12 +105,15 @@ void compare_with_formulas(std::mt19937& bits, ProofFigures& figures) {
     if (kind == 2)
       for (int axis = 0; axis < 3; ++axis) place[axis] = above(axis);
     if (kind == 1) {
-      const auto [height, found] = on_an_edge(half, Real(scene.stiffness().rotational.x()) / scene.stiffness().translational.x(), atan2(Real(hand.rotation.x()), Real(hand.rotation.w())) * 2, Real(hand.translation.z()) - Real(shift.z()));
+      const auto [height, found] =
+          on_an_edge(half, Real(scene.stiffness().rotational.x()) / scene.stiffness().translational.x(),
+                     atan2(Real(hand.rotation.x()), Real(hand.rotation.w())) * 2, Real(hand.translation.z()) - Real(shift.z()));
       place.z() = Real(shift.z()) + height;
       turn = found;
     }
     // From above the minimum by the margin of a renderer, and somewhat off it.
-    Pose<double> near{place.unaryExpr([](const Real& x) { return static_cast<double>(x); }) + Vector3<double>::Constant(kind == 2 ? 1e-6 : 0) + Vector3<double>(0, 0, kind == 2 ? 0 : 1e-6),
+    Pose<double> near{place.unaryExpr([](const Real& x) { return static_cast<double>(x); }) + Vector3<double>::Constant(kind == 2 ? 1e-6 : 0) +
+                          Vector3<double>(0, 0, kind == 2 ? 0 : 1e-6),
                       exp_rotation<double>({static_cast<double>(turn), 0, 0})};
     const auto minimum = truth.nearest(hand, near, 1e-6, kept);
     ++figures.formulas;
@@ -149,9 +157,12 @@ ProofFigures prove_truth(int cells, unsigned seed, const std::vector<std::string
     ++figures.in_contact;
     figures.last_step = std::max(figures.last_step, static_cast<double>(minimum->last_step));
     figures.least_curvature = std::min(figures.least_curvature, minimum->curvature);
-    figures.deep += test::deepest_penetration(object, pieces, test::CheckedPose(wide(minimum->pose.translation), wide(minimum->pose.rotation))).depth > 0;
+    figures.deep +=
+        test::deepest_penetration(object, pieces, test::CheckedPose(wide(minimum->pose.translation), wide(minimum->pose.rotation))).depth > 0;
     const NearestPose tighter = truth.tightened(hand, *minimum, kept, 2);
-    figures.tightened = std::max(figures.tightened, static_cast<double>(Real((minimum->pose.translation - tighter.pose.translation).norm() + 2 * truth.radius() * (minimum->pose.rotation.coeffs() - tighter.pose.rotation.coeffs()).norm())));
+    figures.tightened = std::max(
+        figures.tightened, static_cast<double>(Real((minimum->pose.translation - tighter.pose.translation).norm() +
+                                                    2 * truth.radius() * (minimum->pose.rotation.coeffs() - tighter.pose.rotation.coeffs()).norm())));
     const auto [searched, better] = search_around(bits, scenery, hand, *minimum);
     figures.searched += searched, figures.better += better;
   }

@@ -11,7 +11,9 @@
 namespace feeler::study {
 namespace {
 
-bool is_among(const std::vector<std::string>& list, const std::string& name) { return list.empty() || std::find(list.begin(), list.end(), name) != list.end(); }
+bool is_among(const std::vector<std::string>& list, const std::string& name) {
+  return list.empty() || std::find(list.begin(), list.end(), name) != list.end();
+}
 
 void check_names(const char* what, const std::vector<std::string>& asked, const std::vector<std::string>& known) {
   for (const auto& name : asked) {
@@ -78,15 +80,21 @@ std::vector<Cell> cells_of(const Selection& selection) {
   for (const auto& sweep : sweeps()) {
     if (!is_among(selection.sweeps, sweep.name)) continue;
     if (sweep.name == "renderings") vary(scenes, known_renderings, [](Cell& cell, const std::string& name) { cell.rendering = name; });
-    if (sweep.name == "margin") vary(scenes, some<double>(quick, {1e-8, 1e-7, 1e-6, 1e-5, 1e-4}, {1e-7, 1e-6, 1e-5}), [](Cell& cell, double value) { cell.margin = value; });
-    if (sweep.name == "budget") vary(scenes, some(quick, {16, 32, 64, 128, 256, 512, 2048}, {32, 128, 512}), [](Cell& cell, int value) { cell.budget = value; });
-    if (sweep.name == "iterations") vary(scenes, some(quick, {1, 2, 3, 4, 6, 12, 32}, {1, 4, 12}), [](Cell& cell, int value) { cell.iterations = value; });
-    if (sweep.name == "rate") vary(scenes, some(quick, {250, 500, 1000, 2000, 4000, 10000}, {500, 1000, 4000}), [](Cell& cell, int value) { cell.rate = value; });
+    if (sweep.name == "margin")
+      vary(scenes, some<double>(quick, {1e-8, 1e-7, 1e-6, 1e-5, 1e-4}, {1e-7, 1e-6, 1e-5}), [](Cell& cell, double value) { cell.margin = value; });
+    if (sweep.name == "budget")
+      vary(scenes, some(quick, {16, 32, 64, 128, 256, 512, 2048}, {32, 128, 512}), [](Cell& cell, int value) { cell.budget = value; });
+    if (sweep.name == "iterations")
+      vary(scenes, some(quick, {1, 2, 3, 4, 6, 12, 32}, {1, 4, 12}), [](Cell& cell, int value) { cell.iterations = value; });
+    if (sweep.name == "rate")
+      vary(scenes, some(quick, {250, 500, 1000, 2000, 4000, 10000}, {500, 1000, 4000}), [](Cell& cell, int value) { cell.rate = value; });
     for (const auto& scalar : scalars) {
       if (sweep.name == "offset")
-        vary(small_scenes, some<double>(quick, {0, 1, 10, 1e2, 1e3, 1e4, 1e5, 1e6}, {0, 1, 1e3}), [&](Cell& cell, double value) { cell.rendering = scalar, cell.offset = value; });
+        vary(small_scenes, some<double>(quick, {0, 1, 10, 1e2, 1e3, 1e4, 1e5, 1e6}, {0, 1, 1e3}),
+             [&](Cell& cell, double value) { cell.rendering = scalar, cell.offset = value; });
       if (sweep.name == "scale")
-        vary(small_scenes, some<double>(quick, {1e-3, 1e-2, 1e-1, 1, 10, 100, 1e3}, {0.1, 1, 10}), [&](Cell& cell, double value) { cell.rendering = scalar, cell.scale = value; });
+        vary(small_scenes, some<double>(quick, {1e-3, 1e-2, 1e-1, 1, 10, 100, 1e3}, {0.1, 1, 10}),
+             [&](Cell& cell, double value) { cell.rendering = scalar, cell.scale = value; });
     }
     if (sweep.name == "front" && !quick)
       for (const auto& scene : scenes)

@@ -25,7 +25,8 @@ constexpr const char* results_head =
     "cell,scene,rendering,scalar,solver,method,margin_m,budget,iterations,rate_hz,scale,offset_m,samples,samples_without_truth,converged,error_median_m,error_p99_m,"
     "error_most_m,solver_samples,solver_error_median_m,solver_error_p99_m,within_0.1um,within_1um,deepest_m,separation_m,force_error_median_n,force_error_p99_n,force_jnd_p99,torque_jnd_p99,jitter_p99_n,lag_s,work_median,"
     "work_p99,work_most,seconds,seed,cells,commit,compiler,processor,refused";
-constexpr const char* times_head = "cell,scene,rendering,margin_m,budget,iterations,rate_hz,scale,offset_m,time_median_us,time_p99_us,time_p99.9_us,time_most_us,processor";
+constexpr const char* times_head =
+    "cell,scene,rendering,margin_m,budget,iterations,rate_hz,scale,offset_m,time_median_us,time_p99_us,time_p99.9_us,time_most_us,processor";
 
 /// Text that stays in its column.
 std::string plain(std::string text) {
@@ -43,11 +44,12 @@ std::string choices(const Cell& cell) {
 std::string results_row(int number, const Cell& cell, const CellFigures& f, const std::string& tail) {
   const Rendering& how = rendering(cell.rendering);
   char text[600];
-  std::snprintf(text, sizeof text, ",%d,%d,%.6g,%.4g,%.4g,%.4g,%d,%.4g,%.4g,%.6g,%.6g,%.4g,%.4g,%.4g,%.4g,%.4g,%.4g,%.4g,%.4g,%g,%g,%g,", f.samples, f.samples_without_truth, f.converged,
-                f.error_median, f.error_99, f.error_most, f.solver_samples, f.solver_error_median, f.solver_error_99, f.within_tenth_micrometre, f.within_micrometre, f.deepest, f.separation, f.force_error_median, f.force_error_99,
+  std::snprintf(text, sizeof text, ",%d,%d,%.6g,%.4g,%.4g,%.4g,%d,%.4g,%.4g,%.6g,%.6g,%.4g,%.4g,%.4g,%.4g,%.4g,%.4g,%.4g,%.4g,%g,%g,%g,", f.samples,
+                f.samples_without_truth, f.converged, f.error_median, f.error_99, f.error_most, f.solver_samples, f.solver_error_median,
+                f.solver_error_99, f.within_tenth_micrometre, f.within_micrometre, f.deepest, f.separation, f.force_error_median, f.force_error_99,
                 f.force_jnd_99, f.torque_jnd_99, f.jitter_99, f.lag, f.work_median, f.work_99, f.work_most);
-  return std::to_string(number) + "," + cell.scene + "," + how.name + "," + how.scalar + "," + how.solver + "," + plain(how.method) + "," + choices(cell) + text + tail + "," +
-         plain(f.refusal);
+  return std::to_string(number) + "," + cell.scene + "," + how.name + "," + how.scalar + "," + how.solver + "," + plain(how.method) + "," +
+         choices(cell) + text + tail + "," + plain(f.refusal);
 }
 
 std::string times_row(int number, const Cell& cell, const CellFigures& f, const std::string& processor) {
@@ -110,7 +112,8 @@ std::map<int, std::string> whole_rows(const fs::path& file, const char* head, bo
   std::string line;
   if (!std::getline(text, line) || line != head) {
     if (text.eof() && std::string(head).starts_with(line)) return is_cut = true, rows;
-    throw std::runtime_error("The file " + file.string() + " is not of this program: its first line names other columns; give another folder with --out.");
+    throw std::runtime_error("The file " + file.string() +
+                             " is not of this program: its first line names other columns; give another folder with --out.");
   }
   while (std::getline(text, line)) {
     if (text.eof() || columns(line) != columns(head)) {
@@ -147,10 +150,12 @@ FolderLock::FolderLock(const fs::path& folder) {
   fs::create_directories(folder, problem);
   if (problem) throw std::runtime_error("The folder " + folder.string() + " cannot be made (" + problem.message() + "); give another with --out.");
   file_ = open(folder.c_str(), O_RDONLY | O_DIRECTORY);
-  if (file_ < 0) throw std::runtime_error("The folder " + folder.string() + " cannot be read (" + std::strerror(errno) + "); give another with --out.");
+  if (file_ < 0)
+    throw std::runtime_error("The folder " + folder.string() + " cannot be read (" + std::strerror(errno) + "); give another with --out.");
   if (flock(file_, LOCK_EX | LOCK_NB) != 0) {
     close(file_);
-    throw std::runtime_error("Another feeler-study works in the folder " + folder.string() + "; give each shard a folder of its own with --out, and --merge them.");
+    throw std::runtime_error("Another feeler-study works in the folder " + folder.string() +
+                             "; give each shard a folder of its own with --out, and --merge them.");
   }
 }
 FolderLock::~FolderLock() { close(file_); }
@@ -165,14 +170,17 @@ Table::Table(const fs::path& folder, const std::vector<Cell>& cells, const Prove
   for (const auto& [number, row] : results_) {
     const bool is_known = number >= 0 && std::size_t(number) < cells.size();
     const Cell& cell = cells[is_known ? std::size_t(number) : 0];
-    if (!is_known || row.find("," + tail_ + ",") == std::string::npos || row.find("," + cell.scene + "," + cell.rendering + ",") == std::string::npos || row.find("," + choices(cell) + ",") == std::string::npos)
-      throw std::runtime_error("The file " + (folder / results_name).string() + " holds rows of another build, machine, motion or selection; give another folder with --out, or remove it.");
+    if (!is_known || row.find("," + tail_ + ",") == std::string::npos ||
+        row.find("," + cell.scene + "," + cell.rendering + ",") == std::string::npos || row.find("," + choices(cell) + ",") == std::string::npos)
+      throw std::runtime_error("The file " + (folder / results_name).string() +
+                               " holds rows of another build, machine, motion or selection; give another folder with --out, or remove it.");
   }
   for (const auto& [number, row] : times_) {
     const bool is_known = number >= 0 && std::size_t(number) < cells.size();
     const Cell& cell = cells[is_known ? std::size_t(number) : 0];
     if (!is_known || !row.starts_with(std::to_string(number) + "," + cell.scene + "," + cell.rendering + "," + choices(cell) + ","))
-      throw std::runtime_error("The file " + (folder / times_name).string() + " holds times of another selection; give another folder with --out, or remove it.");
+      throw std::runtime_error("The file " + (folder / times_name).string() +
+                               " holds times of another selection; give another folder with --out, or remove it.");
   }
   sort();
 }
@@ -200,19 +208,24 @@ void merge(const std::vector<fs::path>& from, const fs::path& into) {
       for (const auto& [number, row] : whole_rows(file, head, is_cut)) {
         const auto [place, is_new] = rows->try_emplace(number, row);
         if (!is_new && place->second != row)
-          throw std::runtime_error("Cell " + std::to_string(number) + " is in two of the folders with other figures; merge the shards of one study only.");
+          throw std::runtime_error("Cell " + std::to_string(number) +
+                                   " is in two of the folders with other figures; merge the shards of one study only.");
       }
-      if (is_cut) throw std::runtime_error("The file " + file.string() + " was cut short; run its shard again: it goes on from the rows that are there.");
+      if (is_cut)
+        throw std::runtime_error("The file " + file.string() + " was cut short; run its shard again: it goes on from the rows that are there.");
     }
   }
   for (const auto& [number, row] : results)
     for (const char* column : {"seconds", "seed", "cells", "commit", "compiler"})
       if (value_of(row, column) != value_of(results.begin()->second, column))
-        throw std::runtime_error("The folders are not of one study: " + std::string(column) + " of cell " + std::to_string(number) + " is " + value_of(row, column) + ", and of cell " +
-                                 std::to_string(results.begin()->first) + " " + value_of(results.begin()->second, column) + ".");
+        throw std::runtime_error("The folders are not of one study: " + std::string(column) + " of cell " + std::to_string(number) + " is " +
+                                 value_of(row, column) + ", and of cell " + std::to_string(results.begin()->first) + " " +
+                                 value_of(results.begin()->second, column) + ".");
   const std::size_t cells = results.empty() ? 1 : std::stoul(value_of(results.begin()->second, "cells"));
   for (std::size_t i = 0; i < cells; ++i)
-    if (!results.contains(int(i)) || !times.contains(int(i))) throw std::runtime_error("Cell " + std::to_string(i) + " of " + std::to_string(cells) + " is in none of the folders; a shard is missing, or has not ended.");
+    if (!results.contains(int(i)) || !times.contains(int(i)))
+      throw std::runtime_error("Cell " + std::to_string(i) + " of " + std::to_string(cells) +
+                               " is in none of the folders; a shard is missing, or has not ended.");
   const FolderLock lock(into);
   bool is_cut = false;
   for (const auto& [number, row] : whole_rows(into / results_name, results_head, is_cut))
@@ -231,7 +244,9 @@ std::vector<Row> read_rows(const fs::path& file) {
   const auto names = split(line);
   const std::size_t wanted = columns(line);
   while (std::getline(in, line)) {
-    if (in.eof() || columns(line) != wanted) throw std::runtime_error("The file " + file.string() + " has a row that was cut short; run the study again: it goes on from the rows that are there.");
+    if (in.eof() || columns(line) != wanted)
+      throw std::runtime_error("The file " + file.string() +
+                               " has a row that was cut short; run the study again: it goes on from the rows that are there.");
     const auto values = split(line);
     Row& row = rows.emplace_back();
     for (std::size_t i = 0; i < names.size(); ++i) row[names[i]] = i < values.size() ? values[i] : "";

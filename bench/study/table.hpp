@@ -51,7 +51,7 @@ class Table {
  private:
   FolderLock lock_;
   std::filesystem::path folder_;
-  std::string tail_;                    // columns that are the same in each row
+  std::string tail_;  // columns that are the same in each row
   std::map<int, std::string> results_;  // rows by number
   std::map<int, std::string> times_;
 };

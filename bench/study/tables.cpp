@@ -34,13 +34,16 @@ class Line {
     }
     if (number(row, "solver_samples") > 0)
       for (const char* column : {"solver_error_median_m", "solver_error_p99_m"}) values_[column].push_back(number(row, column));
-    for (const char* column : {"converged", "error_median_m", "error_p99_m", "force_jnd_p99", "work_p99", "deepest_m"}) values_[column].push_back(number(row, column));
+    for (const char* column : {"converged", "error_median_m", "error_p99_m", "force_jnd_p99", "work_p99", "deepest_m"})
+      values_[column].push_back(number(row, column));
     for (const char* column : {"time_median_us", "time_p99_us"}) values_[column].push_back(number(times_of(row, *times_), column));
   }
   std::string text() const {
     if (values_.empty()) return " – | – | – | – | – | – | – | – | refused |";
-    return " " + plain("%.1f", 100 * middle("converged")) + " / " + plain("%.1f", 100 * least("converged")) + " | " + solver_errors() + " | " + length(middle("error_median_m")) + " / " + length(most("error_median_m")) + " | " + plain("%.3f", most("force_jnd_p99")) + " | " + length(most("deepest_m")) + " | " +
-           plain("%.0f", middle("work_p99")) + " | " + plain("%.1f", middle("time_median_us")) + " / " + plain("%.0f", middle("time_p99_us")) + " | " + std::to_string(values_.at("converged").size()) +
+    return " " + plain("%.1f", 100 * middle("converged")) + " / " + plain("%.1f", 100 * least("converged")) + " | " + solver_errors() + " | " +
+           length(middle("error_median_m")) + " / " + length(most("error_median_m")) + " | " + plain("%.3f", most("force_jnd_p99")) + " | " +
+           length(most("deepest_m")) + " | " + plain("%.0f", middle("work_p99")) + " | " + plain("%.1f", middle("time_median_us")) + " / " +
+           plain("%.0f", middle("time_p99_us")) + " | " + std::to_string(values_.at("converged").size()) +
            (refused_ > 0 ? ", refused " + std::to_string(refused_) : "") + " |";
   }
 
@@ -67,23 +70,28 @@ constexpr const char* columns =
 std::string markdown_tables(const std::filesystem::path& folder) {
   const auto rows = read_rows(folder / results_name), times = read_rows(folder / times_name);
   std::string result;
-  if (!rows.empty()) result = "commit " + text(rows.front(), "commit") + ", " + text(rows.front(), "compiler") + ", " + text(rows.front(), "processor") + ", " + text(rows.front(), "seconds") + " s of motion\n";
+  if (!rows.empty())
+    result = "commit " + text(rows.front(), "commit") + ", " + text(rows.front(), "compiler") + ", " + text(rows.front(), "processor") + ", " +
+             text(rows.front(), "seconds") + " s of motion\n";
   const auto add_table = [&](const std::string& head, const auto& lines) {
     if (lines.size() < 2) return;
     result += "\n| " + head + " |" + columns;
-    for (const auto& [value, line] : lines) result += "| " + (value.second.empty() ? plain("%g", value.first) : value.second) + " |" + line.text() + "\n";
+    for (const auto& [value, line] : lines)
+      result += "| " + (value.second.empty() ? plain("%g", value.first) : value.second) + " |" + line.text() + "\n";
   };
   using Key = std::pair<double, std::string>;
   for (const Choice& choice : choices) {
     std::map<std::string, std::map<Key, Line>> tables;  // by rendering
     for (const Row& row : rows)
-      if (is_standard_but_for(row, choice.column)) tables[text(row, "rendering")].try_emplace(Key(number(row, choice.column), ""), times).first->second.add(row);
+      if (is_standard_but_for(row, choice.column))
+        tables[text(row, "rendering")].try_emplace(Key(number(row, choice.column), ""), times).first->second.add(row);
     for (const auto& [rendering, lines] : tables) add_table(std::string(choice.label) + ", `" + rendering + "`", lines);
   }
   std::map<Key, Line> by_rendering;
   for (const Row& row : rows)
     // Of the scenes that all can render: one convex tool.
-    if (is_standard_but_for(row, "") && !has_several_pieces(text(row, "scene"))) by_rendering.try_emplace(Key(0, text(row, "rendering")), times).first->second.add(row);
+    if (is_standard_but_for(row, "") && !has_several_pieces(text(row, "scene")))
+      by_rendering.try_emplace(Key(0, text(row, "rendering")), times).first->second.add(row);
   add_table("rendering", by_rendering);
   return result;
 }

@@ -27,7 +27,9 @@ RealVector log_of(const Quaternion<Real>& q) {
   return (sign * 2 * atan2(sine, Real(sign * q.w())) / sine) * q.vec();
 }
 
-int count(const std::array<int, 3>& corners) { return int(std::count_if(corners.begin(), corners.end(), [](int i) { return i >= 0; })); }
+int count(const std::array<int, 3>& corners) {
+  return int(std::count_if(corners.begin(), corners.end(), [](int i) { return i >= 0; }));
+}
 
 /// Where a point is closest to a segment, as a share of it.
 Wide place_on(const WideVector& point, const WideVector& a, const WideVector& b) {
@@ -47,7 +49,10 @@ bool is_above(const WideVector& point, const std::array<WideVector, 3>& t) {
 }  // namespace
 
 Truth::Truth(const StudyScene& scene)
-    : vertices_(scene.vertices), triangles_(scene.triangles), stiffness_(real(scene.stiffness().translational)), rotational_stiffness_(real(scene.stiffness().rotational)) {
+    : vertices_(scene.vertices),
+      triangles_(scene.triangles),
+      stiffness_(real(scene.stiffness().translational)),
+      rotational_stiffness_(real(scene.stiffness().rotational)) {
   for (const auto& points : scene.pieces) {
     const auto hull = ConvexPolytope<double>::hull_of(points);
     Piece piece{.shape = test::WideTool(hull)};
@@ -89,7 +94,8 @@ Vector6<Real> Truth::energy_gradient(const Pose<double>& hand, const Pose<Real>&
 }
 
 Real Truth::energy(const Pose<double>& hand, const Pose<Real>& pose) const {
-  const RealVector way = pose.translation - real(hand.translation), turn = log_of((pose.rotation * hand.rotation.cast<Real>().normalized().conjugate()).normalized());
+  const RealVector way = pose.translation - real(hand.translation),
+                   turn = log_of((pose.rotation * hand.rotation.cast<Real>().normalized().conjugate()).normalized());
   return (way.dot(stiffness_.cwiseProduct(way)) + turn.dot(rotational_stiffness_.cwiseProduct(turn))) / (2 * stiffness_.maxCoeff());
 }
 
@@ -132,7 +138,8 @@ std::vector<Truth::Near> Truth::pairs_near(const Pose<Real>& pose, double reach)
 
 /// All pairs of a piece and a triangle that are closest inside both of their features.
 template <class Add>
-void Truth::add_pairs(const Piece& piece, const WidePoints& vertices, const std::array<int, 3>& ids, const std::array<WideVector, 3>& t, const Bounds& box, const Add& add) {
+void Truth::add_pairs(const Piece& piece, const WidePoints& vertices, const std::array<int, 3>& ids, const std::array<WideVector, 3>& t,
+                      const Bounds& box, const Add& add) {
   const auto vertex = [&](int i) -> const WideVector& { return vertices[std::size_t(i)]; };
   const WideVector normal = test::detail::normal_of(t[1] - t[0], t[2] - t[0]);
   for (int i = 0; i < int(vertices.size()); ++i) {
@@ -140,7 +147,8 @@ void Truth::add_pairs(const Piece& piece, const WidePoints& vertices, const std:
     if (is_above(vertex(i), t)) add({i, -1, -1}, ids, std::abs(normal.dot(vertex(i) - t[0])));
     for (std::size_t k = 0; k < 3; ++k) {
       const std::size_t next = (k + 1) % 3;
-      if (const Wide at = place_on(vertex(i), t[k], t[next]); at > 0 && at < 1) add({i, -1, -1}, {ids[k], ids[next], -1}, (vertex(i) - t[k] - at * (t[next] - t[k])).norm());
+      if (const Wide at = place_on(vertex(i), t[k], t[next]); at > 0 && at < 1)
+        add({i, -1, -1}, {ids[k], ids[next], -1}, (vertex(i) - t[k] - at * (t[next] - t[k])).norm());
       add({i, -1, -1}, {ids[k], -1, -1}, (vertex(i) - t[k]).norm());
     }
   }
@@ -224,7 +232,8 @@ Matrix6<Real> Truth::lagrangian_hessian(const Pose<double>& hand, const NearestP
   Matrix6<Real> hessian;
   for (int k = 0; k < 6; ++k) {
     const Vector6<Real> step = width * Vector6<Real>::Unit(k);
-    hessian.col(k) = (lagrangian_gradient(hand, answer, moved(answer.pose, step)) - lagrangian_gradient(hand, answer, moved(answer.pose, -step))) / (2 * width);
+    hessian.col(k) =
+        (lagrangian_gradient(hand, answer, moved(answer.pose, step)) - lagrangian_gradient(hand, answer, moved(answer.pose, -step))) / (2 * width);
   }
   return hessian;
 }
@@ -245,7 +254,8 @@ bool Truth::find_active(const Pose<double>& hand, NearestPose& answer, double di
     problem.hessian = symmetric;
     if (!is_convex) {
       problem.hessian.setZero();
-      problem.hessian.diagonal() << Vector3<double>::Ones(), Vector3<double>::Constant(static_cast<double>(Real(rotational_stiffness_.x() / stiffness_.x())));
+      problem.hessian.diagonal() << Vector3<double>::Ones(),
+          Vector3<double>::Constant(static_cast<double>(Real(rotational_stiffness_.x() / stiffness_.x())));
     }
     problem.gradient = energy_gradient(hand, answer.pose).unaryExpr([](const Real& x) { return static_cast<double>(x); });
     std::vector<std::size_t> of_row;
@@ -302,7 +312,8 @@ bool Truth::refine(const Pose<double>& hand, NearestPose& answer, double distanc
     std::vector<std::pair<Real, FeaturePair>> tight;
     for (const Near& near : pairs_near(answer.pose, distance + 1e-13)) {
       const Real room = gap(near.pair, answer.pose).value - distance;
-      if (room < rounding_ && std::find(answer.active.begin(), answer.active.end(), near.pair) == answer.active.end()) tight.emplace_back(room, near.pair);
+      if (room < rounding_ && std::find(answer.active.begin(), answer.active.end(), near.pair) == answer.active.end())
+        tight.emplace_back(room, near.pair);
     }
     std::sort(tight.begin(), tight.end());
     if ((tight.empty() || tight.front().first > -Real("1e-28")) && is_curved(hand, answer)) return true;
@@ -347,7 +358,8 @@ bool Truth::is_stationary(const NearestPose& answer, double distance) const {
       return other.value <= distance + rounding_ && (other.gradient - at.gradient).norm() < 1e-7;
     });
   };
-  return std::all_of(answer.active.begin(), answer.active.end(), is_met) && std::all_of(answer.multipliers.begin(), answer.multipliers.end(), [](const Real& multiplier) { return multiplier >= -Real("1e-24"); }) &&
+  return std::all_of(answer.active.begin(), answer.active.end(), is_met) &&
+         std::all_of(answer.multipliers.begin(), answer.multipliers.end(), [](const Real& multiplier) { return multiplier >= -Real("1e-24"); }) &&
          std::all_of(near.begin(), near.end(), [&](const Near& one) { return gap(one.pair, answer.pose).value >= distance - rounding_; });
 }
 

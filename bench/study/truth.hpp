@@ -25,11 +25,11 @@ struct FeaturePair {
 /// A local minimum of the distance to the hand: the pose that Newton's method gives, and what proves it.
 struct NearestPose {
   Pose<Real> pose;
-  Vector3<Real> force, torque;      ///< on the hand [N], [N·m]
+  Vector3<Real> force, torque;  ///< on the hand [N], [N·m]
   std::vector<FeaturePair> active;  ///< the pairs that hold it
-  std::vector<Real> multipliers;    ///< of those; none is negative
-  Real last_step = 0;               ///< of Newton's method, by which a point of the tool moved at most [m]
-  double curvature = 0;             ///< least eigenvalue of the Lagrangian's Hessian on what the pairs leave free; positive
+  std::vector<Real> multipliers;  ///< of those; none is negative
+  Real last_step = 0;  ///< of Newton's method, by which a point of the tool moved at most [m]
+  double curvature = 0;  ///< least eigenvalue of the Lagrangian's Hessian on what the pairs leave free; positive
 };
 
 /// min ½ eᵀ M e over the poses at which no triangle is nearer to the tool than a distance.
@@ -88,7 +88,8 @@ class Truth {
 
   std::vector<Near> pairs_near(const Pose<Real>& pose, double reach) const;
   template <class Add>
-  static void add_pairs(const Piece& piece, const WidePoints& vertices, const std::array<int, 3>& ids, const std::array<WidePoint, 3>& corners, const Bounds& box, const Add& add);
+  static void add_pairs(const Piece& piece, const WidePoints& vertices, const std::array<int, 3>& ids, const std::array<WidePoint, 3>& corners,
+                        const Bounds& box, const Add& add);
   Gap gap(const FeaturePair& pair, const Pose<Real>& pose) const;
   Vector6<Real> energy_gradient(const Pose<double>& hand, const Pose<Real>& pose) const;
   Vector6<Real> lagrangian_gradient(const Pose<double>& hand, const NearestPose& answer, const Pose<Real>& pose) const;

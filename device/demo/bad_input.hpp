@@ -13,9 +13,7 @@ class BadInput : public std::runtime_error {
 
  private:
   // The library's refusals leave it out.
-  static std::string with_full_stop(const std::string& sentence) {
-    return sentence.empty() || sentence.back() == '.' ? sentence : sentence + '.';
-  }
+  static std::string with_full_stop(const std::string& sentence) { return sentence.empty() || sentence.back() == '.' ? sentence : sentence + '.'; }
 };
 
 }  // namespace feeler::demo

@@ -23,15 +23,14 @@ constexpr int success = 0, penetrated = 1, bad_input = 2, failure = 3;
 constexpr double checking_seconds = 15.0;
 
 void print_progress(const Progress& p) {
-  std::printf("  %6.2f s   %7.1f Hz   tick %7.1f µs   contacts %d   force %6.2f N   missed %lld\n", p.time,
-              p.rate, p.microseconds, p.contacts, p.force, static_cast<long long>(p.missed));
+  std::printf("  %6.2f s   %7.1f Hz   tick %7.1f µs   contacts %d   force %6.2f N   missed %lld\n", p.time, p.rate, p.microseconds, p.contacts,
+              p.force, static_cast<long long>(p.missed));
   std::fflush(stdout);
 }
 
 void print_table(const Summary& summary) {
   std::printf("\n");
-  for (const auto& [name, value] : table_of(summary))
-    std::printf("  %-28s %s\n", name.c_str(), value.c_str());
+  for (const auto& [name, value] : table_of(summary)) std::printf("  %-28s %s\n", name.c_str(), value.c_str());
 }
 
 /// What every maker's library and device say.
@@ -50,8 +49,7 @@ int replay_session(const std::filesystem::path& file) {
     throw BadInput(problem.what());
   }
   const Replay result = replay(session);
-  std::printf("%s: %zu ticks of a session with a %s, ", file.c_str(), result.ticks,
-              session.device.name.c_str());
+  std::printf("%s: %zu ticks of a session with a %s, ", file.c_str(), result.ticks, session.device.name.c_str());
   if (result.is_exact()) {
     std::printf("every wrench the same to the last bit\n");
     return success;
@@ -63,16 +61,13 @@ int replay_session(const std::filesystem::path& file) {
 /// Runs one scene from start to report.
 int run_scene(const ChosenScene& chosen, const Options& options, const std::filesystem::path& out) {
   const scenes::Scene& scene = chosen.scene;
-  const SessionSettings session{options.rate,   options.seconds,        options.seed,
-                                options.device, choice_of(options),     options.workspace_scale,
-                                options.record};
+  const SessionSettings session{options.rate,       options.seconds,         options.seed,  options.device,
+                                choice_of(options), options.workspace_scale, options.record};
   ReportFolder folder(out);
-  std::printf("%s: %s %lld triangles.\n", scene.name.c_str(), scene.description.c_str(),
-              static_cast<long long>(scene.triangles.rows()));
+  std::printf("%s: %s %lld triangles.\n", scene.name.c_str(), scene.description.c_str(), static_cast<long long>(scene.triangles.rows()));
 
   const Recording recording = run_session(scene, session, print_progress);
-  for (const std::string& refusal : recording.servo.setup.refused)
-    std::printf("  note: %s\n", refusal.c_str());
+  for (const std::string& refusal : recording.servo.setup.refused) std::printf("  note: %s\n", refusal.c_str());
   std::printf("  checking the way of the tool against every triangle …\n");
   std::fflush(stdout);
   const Verification verification = verify(scene, recording, checking_seconds);

@@ -40,8 +40,7 @@ class MeshGatherer {
   }
 
   Mesh mesh(double scale) const {
-    Mesh mesh{Points<double>(Eigen::Index(vertices_.size()), 3),
-              Triangles(Eigen::Index(triangles_.size()), 3)};
+    Mesh mesh{Points<double>(Eigen::Index(vertices_.size()), 3), Triangles(Eigen::Index(triangles_.size()), 3)};
     for (std::size_t i = 0; i < vertices_.size(); ++i) {
       mesh.vertices.row(Eigen::Index(i)) = scale * vertices_[i].transpose();
     }
@@ -61,8 +60,7 @@ class MeshGatherer {
     for (unsigned i = 0; i < mesh.mNumFaces; ++i) {
       const aiFace& face = mesh.mFaces[i];
       if (face.mNumIndices != 3) continue;  // a point or a line: it has no surface to touch
-      triangles_.emplace_back(first + int(face.mIndices[0]), first + int(face.mIndices[1]),
-                              first + int(face.mIndices[2]));
+      triangles_.emplace_back(first + int(face.mIndices[0]), first + int(face.mIndices[1]), first + int(face.mIndices[2]));
     }
   }
 
@@ -77,14 +75,11 @@ Mesh load_mesh(const std::filesystem::path& file, double scale) {
   check_file(file);
   Assimp::Importer importer;
   // Everything but positions is dropped first: corners that differ in normal or colour only are then joined.
-  importer.SetPropertyInteger(AI_CONFIG_PP_RVC_FLAGS,
-                              aiComponent_NORMALS | aiComponent_TANGENTS_AND_BITANGENTS | aiComponent_COLORS |
-                                  aiComponent_TEXCOORDS | aiComponent_TEXTURES | aiComponent_MATERIALS);
-  const aiScene* scene = importer.ReadFile(
-      file.string(), aiProcess_RemoveComponent | aiProcess_Triangulate | aiProcess_JoinIdenticalVertices);
+  importer.SetPropertyInteger(AI_CONFIG_PP_RVC_FLAGS, aiComponent_NORMALS | aiComponent_TANGENTS_AND_BITANGENTS | aiComponent_COLORS |
+                                                          aiComponent_TEXCOORDS | aiComponent_TEXTURES | aiComponent_MATERIALS);
+  const aiScene* scene = importer.ReadFile(file.string(), aiProcess_RemoveComponent | aiProcess_Triangulate | aiProcess_JoinIdenticalVertices);
   if (scene == nullptr || scene->mRootNode == nullptr) {
-    throw BadInput("The file " + file.string() + " cannot be read as a mesh (" + importer.GetErrorString() +
-                   "): give an STL, OBJ, PLY or OFF file.");
+    throw BadInput("The file " + file.string() + " cannot be read as a mesh (" + importer.GetErrorString() + "): give an STL, OBJ, PLY or OFF file.");
   }
   MeshGatherer gatherer(*scene);
   gatherer.add(*scene->mRootNode, aiMatrix4x4());
@@ -93,8 +88,7 @@ Mesh load_mesh(const std::filesystem::path& file, double scale) {
     throw BadInput("The file " + file.string() + " has no triangles: export a surface, not points or lines.");
   }
   if (!mesh.vertices.allFinite()) {
-    throw BadInput("The file " + file.string() +
-                   " has a coordinate that is NaN or infinite: repair the mesh and export it again.");
+    throw BadInput("The file " + file.string() + " has a coordinate that is NaN or infinite: repair the mesh and export it again.");
   }
   return mesh;
 }

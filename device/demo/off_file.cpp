@@ -40,8 +40,7 @@ void write_off(const std::filesystem::path& file, const Polyhedron& polyhedron) 
   TextFile text(file);
   text.print("OFF\n%ld %zu 0\n", long(polyhedron.vertices.rows()), polyhedron.faces.size());
   for (Eigen::Index i = 0; i < polyhedron.vertices.rows(); ++i) {
-    text.print("%.17g %.17g %.17g\n", polyhedron.vertices(i, 0), polyhedron.vertices(i, 1),
-               polyhedron.vertices(i, 2));
+    text.print("%.17g %.17g %.17g\n", polyhedron.vertices(i, 0), polyhedron.vertices(i, 1), polyhedron.vertices(i, 2));
   }
   for (const std::vector<int>& face : polyhedron.faces) {
     text.print("%zu", face.size());

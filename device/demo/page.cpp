@@ -49,14 +49,10 @@ std::string content_of(const std::filesystem::path& file) {
 std::string escaped(const std::string& text) {
   std::string result;
   for (char c : text) {
-    if (c == '&')
-      result += "&amp;";
-    else if (c == '<')
-      result += "&lt;";
-    else if (c == '>')
-      result += "&gt;";
-    else
-      result += c;
+    if (c == '&') result += "&amp;";
+    else if (c == '<') result += "&lt;";
+    else if (c == '>') result += "&gt;";
+    else result += c;
   }
   return result;
 }
@@ -67,8 +63,7 @@ std::string figure_html(const std::filesystem::path& folder, const Figure& figur
   constexpr std::size_t large = 2000000;
   std::string drawing = content_of(folder / (figure.name + ".svg"));
   if (drawing.empty() || drawing.size() > large) {
-    return "<img alt=\"" + figure.name + "\" src=\"data:image/png;base64," +
-           base64(content_of(folder / (figure.name + ".png"))) + "\">";
+    return "<img alt=\"" + figure.name + "\" src=\"data:image/png;base64," + base64(content_of(folder / (figure.name + ".png"))) + "\">";
   }
   const std::size_t start = drawing.find("<svg");
   return start == std::string::npos ? std::string() : drawing.substr(start);
@@ -78,12 +73,9 @@ std::string as_attribute(const std::string& text) {
   std::string result;
   result.reserve(text.size() + text.size() / 16);
   for (const char c : text) {
-    if (c == '&')
-      result += "&amp;";
-    else if (c == '"')
-      result += "&quot;";
-    else
-      result += c;
+    if (c == '&') result += "&amp;";
+    else if (c == '"') result += "&quot;";
+    else result += c;
   }
   return result;
 }
@@ -100,17 +92,14 @@ the run in this page</button> Drag to look around, and scrub through the time. T
 
 }  // namespace
 
-void write_page(const std::filesystem::path& file, const std::filesystem::path& folder,
-                const scenes::Scene& scene, const Summary& summary, const std::vector<Figure>& figures,
-                const std::string& player) {
+void write_page(const std::filesystem::path& file, const std::filesystem::path& folder, const scenes::Scene& scene, const Summary& summary,
+                const std::vector<Figure>& figures, const std::string& player) {
   TextFile text(file);
   text.write(head);
-  text.write("<title>Feeler: " + escaped(scene.name) + "</title></head><body><main>\n<h1>" +
-             escaped(scene.name) + "</h1>\n<p>" + escaped(scene.description) + " " +
-             std::to_string(scene.triangles.rows()) + " triangles.</p>\n");
-  text.write(summary.verification.penetrated()
-                 ? "<div class=\"verdict penetrated\">The tool penetrated the object.</div>\n"
-                 : "<div class=\"verdict free\">No penetration found.</div>\n");
+  text.write("<title>Feeler: " + escaped(scene.name) + "</title></head><body><main>\n<h1>" + escaped(scene.name) + "</h1>\n<p>" +
+             escaped(scene.description) + " " + std::to_string(scene.triangles.rows()) + " triangles.</p>\n");
+  text.write(summary.verification.penetrated() ? "<div class=\"verdict penetrated\">The tool penetrated the object.</div>\n"
+                                               : "<div class=\"verdict free\">No penetration found.</div>\n");
   text.write("<table>\n");
   for (const auto& [name, value] : table_of(summary)) {
     text.write("<tr><td>" + escaped(name) + "</td><td>" + escaped(value) + "</td></tr>\n");
@@ -119,12 +108,11 @@ void write_page(const std::filesystem::path& file, const std::filesystem::path& 
   if (!player.empty()) text.write(player_html(player));
   if (figures.empty()) text.write("<p>No figures: gnuplot was not found when this report was written.</p>\n");
   for (const Figure& figure : figures) {
-    text.write("<figure>" + figure_html(folder, figure) + "<figcaption>" + escaped(figure.caption) +
-               "</figcaption></figure>\n");
+    text.write("<figure>" + figure_html(folder, figure) + "<figcaption>" + escaped(figure.caption) + "</figcaption></figure>\n");
   }
   text.write(how_to_judge);
-  text.write("<h2>Settings</h2>\n<details><summary>scene.json</summary><pre>" +
-             escaped(content_of(folder / "scene.json")) + "</pre></details>\n</main></body></html>\n");
+  text.write("<h2>Settings</h2>\n<details><summary>scene.json</summary><pre>" + escaped(content_of(folder / "scene.json")) +
+             "</pre></details>\n</main></body></html>\n");
   text.close();
 }
 

@@ -13,8 +13,7 @@ namespace feeler::demo {
 
 /// Writes a page that needs no other file: the figures and scene.json of the folder are copied into it.
 /// @param player  a page that plays the run, to be shown within this one; empty for none
-void write_page(const std::filesystem::path& file, const std::filesystem::path& folder,
-                const scenes::Scene& scene, const Summary& summary, const std::vector<Figure>& figures,
-                const std::string& player);
+void write_page(const std::filesystem::path& file, const std::filesystem::path& folder, const scenes::Scene& scene, const Summary& summary,
+                const std::vector<Figure>& figures, const std::string& player);
 
 }  // namespace feeler::demo

@@ -144,8 +144,7 @@ void write_script(const std::filesystem::path& folder, const Script& script) {
   text.write(colours);
   text.write(script.settings);
   if (script.has_drawing) {
-    text.print("set terminal svg size %d,%d enhanced font 'sans-serif,13' name '%s' background rgb 'white'\n",
-               script.width, script.height, name);
+    text.print("set terminal svg size %d,%d enhanced font 'sans-serif,13' name '%s' background rgb 'white'\n", script.width, script.height, name);
     text.print("set output '%s.svg'\n", name);
     text.write(style);
     text.write(script.body);
@@ -183,8 +182,7 @@ std::string time_settings(const std::vector<TickRecord>& ticks, const Summary& s
   lowest = std::max(lowest, 1e-2);
   const double p50 = std::max(summary.tick_time.median, lowest);
   return assignment("lowest", lowest / 1.5) + assignment("highest", highest * 2.0) + assignment("p50", p50) +
-         assignment("p99", std::max(summary.tick_time.p99, p50 * 1.0001)) +
-         assignment("period", 1e6 / summary.wanted_rate);
+         assignment("p99", std::max(summary.tick_time.p99, p50 * 1.0001)) + assignment("period", 1e6 / summary.wanted_rate);
 }
 
 constexpr int run_width = 1000, run_height = 760;
@@ -195,18 +193,14 @@ constexpr double panels_split = 0.6, panels_base = 0.285, strip_top = 0.225;
 ///
 /// The ranges are a cube that holds all that is drawn, because gnuplot drops what is outside of them; it
 /// draws the side of the cube 4/7 of the panel long, less its own margins, times the zoom.
-std::string view_settings(const std::string& name, const View& view, const Eigen::AlignedBox3d& box,
-                          double panel_width, double panel_height) {
-  const double side = 2.0 * std::max((box.max() - view.centre).cwiseAbs().maxCoeff(),
-                                     (view.centre - box.min()).cwiseAbs().maxCoeff());
+std::string view_settings(const std::string& name, const View& view, const Eigen::AlignedBox3d& box, double panel_width, double panel_height) {
+  const double side = 2.0 * std::max((box.max() - view.centre).cwiseAbs().maxCoeff(), (view.centre - box.min()).cwiseAbs().maxCoeff());
   const double inner = std::min(panel_width - 52.0, panel_height - 72.0);
-  const double pixels_a_millimetre =
-      0.94 * std::min(panel_width / std::max(view.width, 1e-9), panel_height / std::max(view.height, 1e-9));
+  const double pixels_a_millimetre = 0.94 * std::min(panel_width / std::max(view.width, 1e-9), panel_height / std::max(view.height, 1e-9));
   std::string settings;
   for (int k = 0; k < 3; ++k) {
     const std::string range = name + "_" + char('x' + k);
-    settings += assignment((range + "0").c_str(), view.centre[k] - side / 2.0) +
-                assignment((range + "1").c_str(), view.centre[k] + side / 2.0);
+    settings += assignment((range + "0").c_str(), view.centre[k] - side / 2.0) + assignment((range + "1").c_str(), view.centre[k] + side / 2.0);
   }
   return settings + assignment((name + "_zoom").c_str(), pixels_a_millimetre * side / (4.0 / 7.0 * inner));
 }
@@ -227,46 +221,39 @@ std::string run_settings(const RunFigureData& data, double duration) {
   const double peak_force = std::max(data.peak().wrench.force.norm(), 1e-3);
   std::string settings = view_settings("far", data.overview(), data.box(), run_width * split, height);
   if (close_up) settings += view_settings("near", *close_up, data.box(), run_width * (1.0 - split), height);
-  return settings + assignment("split", split) + assignment("base", panels_base) +
-         assignment("strip", strip_top) + assignment("tilt", RunFigureData::tilt) +
-         assignment("turn", RunFigureData::turn) + assignment("opacity", is_simple ? 0.45 : 1.0) +
+  return settings + assignment("split", split) + assignment("base", panels_base) + assignment("strip", strip_top) +
+         assignment("tilt", RunFigureData::tilt) + assignment("turn", RunFigureData::turn) + assignment("opacity", is_simple ? 0.45 : 1.0) +
          assignment("tool_width", is_simple ? 2.0 : 1.0) + assignment("force_top", 1.25 * peak_force) +
          assignment("force_tics", tic_step(1.25 * peak_force)) + assignment("peak_time", data.peak().time) +
-         assignment("peak_side", is_late ? -0.5 : 0.5) + "peak_align = '" + (is_late ? "right" : "left") +
-         "'\nobject_border = \"" + (is_simple ? "lc rgb '#8d877c' lw 0.7" : "retrace") + "\"\n";
+         assignment("peak_side", is_late ? -0.5 : 0.5) + "peak_align = '" + (is_late ? "right" : "left") + "'\nobject_border = \"" +
+         (is_simple ? "lc rgb '#8d877c' lw 0.7" : "retrace") + "\"\n";
 }
 
 }  // namespace
 
-std::vector<Figure> draw_figures(const std::filesystem::path& folder, const scenes::Scene& scene,
-                                 const std::vector<TickRecord>& ticks, const Summary& summary) {
+std::vector<Figure> draw_figures(const std::filesystem::path& folder, const scenes::Scene& scene, const std::vector<TickRecord>& ticks,
+                                 const Summary& summary) {
   const double duration = double(ticks.size()) / summary.wanted_rate;
   // More points than pixels make files large and nothing clearer.
-  const std::string common =
-      assignment("duration", duration) + assignment("every_tick", double(ticks.size() / 4000 + 1));
+  const std::string common = assignment("duration", duration) + assignment("every_tick", double(ticks.size() / 4000 + 1));
   const RunFigureData data(folder, scene, ticks);
 
   write_script(folder, {"wrench", 1000, 760, common + wrench_settings(ticks), wrench_body});
   write_script(folder, {"tick_time", 1000, 420, common + time_settings(ticks, summary), time_body});
   // As a picture only: gnuplot's drawings garble what lies outside of them and forget the second palette.
-  write_script(folder, {"run", run_width, run_height, common + run_settings(data, duration),
-                        std::string(run_body) + style + run_strip, false});
+  write_script(folder, {"run", run_width, run_height, common + run_settings(data, duration), std::string(run_body) + style + run_strip, false});
 
-  std::vector<Figure> figures{
-      {"run",
-       "The way of the tool's tip, and both tools at the peak force: where the hand is in red, where the "
-       "tool "
-       "may be in grey. Below, the norm of the force."},
-      {"wrench", "Force and torque on the hand, and the number of contacts that hold the tool."},
-      {"tick_time",
-       "Time of each tick of the renderer, with median and 99th percentile of the ticks in contact."}};
-  const bool drawn = std::all_of(figures.begin(), figures.end(), [&](const Figure& figure) {
-    return run_program(folder, {"gnuplot", figure.name + ".gp"}) == 0;
-  });
+  std::vector<Figure> figures{{"run",
+                               "The way of the tool's tip, and both tools at the peak force: where the hand is in red, where the "
+                               "tool "
+                               "may be in grey. Below, the norm of the force."},
+                              {"wrench", "Force and torque on the hand, and the number of contacts that hold the tool."},
+                              {"tick_time", "Time of each tick of the renderer, with median and 99th percentile of the ticks in contact."}};
+  const bool drawn =
+      std::all_of(figures.begin(), figures.end(), [&](const Figure& figure) { return run_program(folder, {"gnuplot", figure.name + ".gp"}) == 0; });
   if (drawn) return figures;
   for (const Figure& figure : figures) {
-    for (const char* extension : {".svg", ".png"})
-      std::filesystem::remove(folder / (figure.name + extension));
+    for (const char* extension : {".svg", ".png"}) std::filesystem::remove(folder / (figure.name + extension));
   }
   return {};
 }

@@ -18,7 +18,7 @@ struct Figure {
 
 /// Writes the scripts and what they need beside ticks.csv, and runs them.
 /// @return the figures drawn; empty where gnuplot is missing or fails, and then nothing of a figure remains
-std::vector<Figure> draw_figures(const std::filesystem::path& folder, const scenes::Scene& scene,
-                                 const std::vector<TickRecord>& ticks, const Summary& summary);
+std::vector<Figure> draw_figures(const std::filesystem::path& folder, const scenes::Scene& scene, const std::vector<TickRecord>& ticks,
+                                 const Summary& summary);
 
 }  // namespace feeler::demo

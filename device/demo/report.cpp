@@ -22,16 +22,12 @@ namespace {
 
 using nlohmann::ordered_json;
 
-ordered_json json_of(const Vector3<double>& v) {
-  return {v.x(), v.y(), v.z()};
-}
+ordered_json json_of(const Vector3<double>& v) { return {v.x(), v.y(), v.z()}; }
 ordered_json json_of(const Pose<double>& pose) {
   const auto& q = pose.rotation;
   return {{"position", json_of(pose.translation)}, {"quaternion_wxyz", {q.w(), q.x(), q.y(), q.z()}}};
 }
-ordered_json json_of(const Distribution& d) {
-  return {{"median", d.median}, {"p99", d.p99}, {"p99_9", d.p999}, {"max", d.maximum}};
-}
+ordered_json json_of(const Distribution& d) { return {{"median", d.median}, {"p99", d.p99}, {"p99_9", d.p999}, {"max", d.maximum}}; }
 
 void print_pose(TextFile& text, const Pose<double>& pose) {
   const auto& p = pose.translation;
@@ -68,8 +64,8 @@ void write_ticks(const std::filesystem::path& file, const std::vector<TickRecord
     text.print("%.17g", tick.time);
     print_pose(text, tick.haptic);
     print_pose(text, tick.graphic);
-    text.print(",%.17g,%.17g,%.17g,%.17g,%.17g,%.17g,%d,%d,%d,%d,%.17g\n", f.x(), f.y(), f.z(), t.x(), t.y(),
-               t.z(), tick.contacts, tick.rows, tick.iterations, int(tick.converged), tick.microseconds);
+    text.print(",%.17g,%.17g,%.17g,%.17g,%.17g,%.17g,%d,%d,%d,%d,%.17g\n", f.x(), f.y(), f.z(), t.x(), t.y(), t.z(), tick.contacts, tick.rows,
+               tick.iterations, int(tick.converged), tick.microseconds);
   }
   text.close();
 }
@@ -173,24 +169,15 @@ void write_scene(const std::filesystem::path& file, const Run& run) {
   const ordered_json json = {
       {"scene", scene.name},
       {"description", scene.description},
-      {"object",
-       {{"source", run.chosen.object_source},
-        {"triangles", scene.triangles.rows()},
-        {"vertices", scene.vertices.rows()}}},
+      {"object", {{"source", run.chosen.object_source}, {"triangles", scene.triangles.rows()}, {"vertices", scene.vertices.rows()}}},
       {"tool", {{"source", run.chosen.tool_source}}},
       {"start", json_of(scene.start)},
       {"rate_Hz", run.session.rate},
       {"seconds", run.session.seconds},
       {"seed", run.session.seed},
       {"renderer", renderer_json(scene, run.recording.stiffness_share)},
-      {"device", run.recording.is_simulated ? device_json(run.session)
-                                            : real_device_json(run.recording.device, run.session)},
-      {"build",
-       {{"version", FEELER_VERSION},
-        {"commit", build_commit},
-        {"compiler", build_compiler},
-        {"type", build_type},
-        {"flags", build_flags}}},
+      {"device", run.recording.is_simulated ? device_json(run.session) : real_device_json(run.recording.device, run.session)},
+      {"build", {{"version", FEELER_VERSION}, {"commit", build_commit}, {"compiler", build_compiler}, {"type", build_type}, {"flags", build_flags}}},
       {"machine",
        {{"processor", processor_name()},
         {"kernel", setup.kernel},
@@ -217,13 +204,11 @@ std::filesystem::path topmost_missing(std::filesystem::path path) {
 
 }  // namespace
 
-ReportFolder::ReportFolder(const std::filesystem::path& target)
-    : target_(std::filesystem::absolute(target).lexically_normal()) {
+ReportFolder::ReportFolder(const std::filesystem::path& target) : target_(std::filesystem::absolute(target).lexically_normal()) {
   if (!target_.has_filename()) target_ = target_.parent_path();
   std::error_code error;
-  const bool is_replaceable = !std::filesystem::exists(target_) ||
-                              std::filesystem::is_empty(target_, error) ||
-                              std::filesystem::exists(target_ / "scene.json");
+  const bool is_replaceable =
+      !std::filesystem::exists(target_) || std::filesystem::is_empty(target_, error) || std::filesystem::exists(target_ / "scene.json");
   if (!is_replaceable || error) {
     throw BadInput(target_.string() + " exists and is no report of this program: choose another --out.");
   }
@@ -232,8 +217,7 @@ ReportFolder::ReportFolder(const std::filesystem::path& target)
   created_parent_ = topmost_missing(target_.parent_path());
   std::filesystem::create_directories(partial_, error);
   if (error) {
-    throw BadInput("The folder " + target_.string() + " cannot be made (" + error.message() +
-                   "): choose another --out.");
+    throw BadInput("The folder " + target_.string() + " cannot be made (" + error.message() + "): choose another --out.");
   }
 }
 
@@ -242,8 +226,7 @@ ReportFolder::~ReportFolder() {
   if (!std::filesystem::exists(partial_, error)) return;
   std::filesystem::remove_all(partial_, error);
   // Parents made for this report go with it, unless something else is in them by now.
-  for (std::filesystem::path parent = target_.parent_path(); !created_parent_.empty();
-       parent = parent.parent_path()) {
+  for (std::filesystem::path parent = target_.parent_path(); !created_parent_.empty(); parent = parent.parent_path()) {
     if (!std::filesystem::remove(parent, error) || parent == created_parent_) break;
   }
 }
@@ -261,8 +244,7 @@ bool write_report(const std::filesystem::path& folder, const Run& run) {
   write_path(folder / "path.csv", run.recording);
   write_scene(folder / "scene.json", run);
   const std::vector<Figure> figures = draw_figures(folder, scene, run.recording.ticks, run.summary);
-  write_page(folder / "report.html", folder, scene, run.summary, figures,
-             write_player(folder / "replay.json", run));
+  write_page(folder / "report.html", folder, scene, run.summary, figures, write_player(folder / "replay.json", run));
   return !figures.empty();
 }
 

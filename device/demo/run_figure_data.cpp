@@ -50,11 +50,8 @@ void write_triangle(TextFile& text, const std::array<Vector, 3>& corners) {
 
 }  // namespace
 
-RunFigureData::RunFigureData(const std::filesystem::path& folder, const scenes::Scene& scene,
-                             const std::vector<TickRecord>& ticks)
-    : scene_(scene),
-      ticks_(ticks),
-      peak_(std::max_element(ticks.begin(), ticks.end(), [](const TickRecord& a, const TickRecord& b) {
+RunFigureData::RunFigureData(const std::filesystem::path& folder, const scenes::Scene& scene, const std::vector<TickRecord>& ticks)
+    : scene_(scene), ticks_(ticks), peak_(std::max_element(ticks.begin(), ticks.end(), [](const TickRecord& a, const TickRecord& b) {
         return a.wrench.force.squaredNorm() < b.wrench.force.squaredNorm();
       })) {
   for (const TickRecord& tick : ticks_) {
@@ -71,9 +68,7 @@ void RunFigureData::extend(const Vector& point) {
   seen_.extend(Vector(eye_axes() * point));
 }
 
-View RunFigureData::overview() const {
-  return {eye_axes().transpose() * seen_.center(), seen_.sizes().x(), seen_.sizes().y()};
-}
+View RunFigureData::overview() const { return {eye_axes().transpose() * seen_.center(), seen_.sizes().x(), seen_.sizes().y()}; }
 
 std::optional<View> RunFigureData::close_up() const {
   if (scene_.tip.isZero()) return std::nullopt;  // no place of such a tool is where it touches
@@ -85,12 +80,9 @@ std::optional<View> RunFigureData::close_up() const {
 }
 
 void RunFigureData::write_object(const std::filesystem::path& file) {
-  const auto corner = [&](Eigen::Index triangle, int k) {
-    return Vector(1e3 * scene_.vertices.row(scene_.triangles(triangle, k)).transpose());
-  };
+  const auto corner = [&](Eigen::Index triangle, int k) { return Vector(1e3 * scene_.vertices.row(scene_.triangles(triangle, k)).transpose()); };
   const double around = 0.25 * box_.sizes().maxCoeff() + 5.0;
-  const Eigen::AlignedBox3d near_box((box_.min().array() - around).matrix(),
-                                     (box_.max().array() + around).matrix());
+  const Eigen::AlignedBox3d near_box((box_.min().array() - around).matrix(), (box_.max().array() + around).matrix());
   std::vector<Eigen::Index> near;
   for (Eigen::Index i = 0; i < scene_.triangles.rows(); ++i) {
     if (scene_.triangles.rows() < few_triangles || near_box.contains(corner(i, 0))) near.push_back(i);
@@ -115,8 +107,7 @@ void RunFigureData::write_tool(const std::filesystem::path& file) {
         for (int i = 0; i < tool.face_count(); ++i) {
           const auto face = tool.face(i);
           for (std::size_t k = 2; k < face.vertices.size(); ++k) {
-            write_triangle(
-                text, {vertex(face.vertices[0]), vertex(face.vertices[k - 1]), vertex(face.vertices[k])});
+            write_triangle(text, {vertex(face.vertices[0]), vertex(face.vertices[k - 1]), vertex(face.vertices[k])});
           }
         }
         // A segment is a triangle of no width: gnuplot refuses a file without data.

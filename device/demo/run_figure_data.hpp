@@ -25,8 +25,7 @@ class RunFigureData {
   /// Where the picture is looked at from [degrees], as gnuplot's `set view`.
   static constexpr double tilt = 52.0, turn = 28.0;
 
-  RunFigureData(const std::filesystem::path& folder, const scenes::Scene& scene,
-                const std::vector<TickRecord>& ticks);
+  RunFigureData(const std::filesystem::path& folder, const scenes::Scene& scene, const std::vector<TickRecord>& ticks);
 
   const Eigen::AlignedBox3d& box() const { return box_; }  ///< of all that is drawn [mm]
   const TickRecord& peak() const { return *peak_; }        ///< the tick of the largest force

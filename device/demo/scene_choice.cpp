@@ -34,16 +34,13 @@ scenes::Tool load_tool(const Options& options) {
 ChosenScene best_real_mesh(const Options& options) {
   if (std::filesystem::exists(teeth_mesh_file)) {
     Mesh mesh = load_mesh(teeth_mesh_file, 1.0);
-    return {scenes::lower_teeth(scenes::teeth_vertices(mesh.vertices), std::move(mesh.triangles)),
-            teeth_mesh_file, formula};
+    return {scenes::lower_teeth(scenes::teeth_vertices(mesh.vertices), std::move(mesh.triangles)), teeth_mesh_file, formula};
   }
   if (std::filesystem::exists(animal_mesh_file)) {
     Mesh mesh = load_mesh(animal_mesh_file, 1.0);
     const double size = scenes::bounds(mesh.vertices, mesh.triangles).sizes().maxCoeff();
     mesh.vertices *= 0.1 / size;
-    return {scenes::mesh_scene("mesh", std::move(mesh.vertices), std::move(mesh.triangles),
-                               scenes::slender_probe()),
-            animal_mesh_file, formula};
+    return {scenes::mesh_scene("mesh", std::move(mesh.vertices), std::move(mesh.triangles), scenes::slender_probe()), animal_mesh_file, formula};
   }
   return {scenes::terrain(71, options.seed), formula, formula};
 }
@@ -52,8 +49,7 @@ ChosenScene scene_of_files(const Options& options) {
   if (!options.object && !options.tool) return best_real_mesh(options);
   if (!options.object) throw BadInput("--tool needs an object: give its mesh file with --object.");
   Mesh mesh = load_mesh(*options.object, options.scale);
-  scenes::Scene scene =
-      scenes::mesh_scene("file", std::move(mesh.vertices), std::move(mesh.triangles), load_tool(options));
+  scenes::Scene scene = scenes::mesh_scene("file", std::move(mesh.vertices), std::move(mesh.triangles), load_tool(options));
   if (options.start) {
     scene.start.translation = *options.start;
     scene.motion = scenes::started_from(scene.start, std::move(scene.motion));

@@ -26,9 +26,7 @@ namespace {
 
 using SteadyClock = std::chrono::steady_clock;
 
-double seconds_between(SteadyClock::time_point from, SteadyClock::time_point to) {
-  return std::chrono::duration<double>(to - from).count();
-}
+double seconds_between(SteadyClock::time_point from, SteadyClock::time_point to) { return std::chrono::duration<double>(to - from).count(); }
 
 /// The few numbers of a tick that the watching thread prints; trivially copyable.
 struct Snapshot {
@@ -71,17 +69,15 @@ std::unique_ptr<Device> open_real_device(const SessionSettings& settings) {
 /// The rates that the device accepts.
 void check_rate(const DeviceSpecification& device, double rate) {
   if (rate >= device.minimum_rate && rate <= device.maximum_rate) return;
-  throw BadInput("The " + device.name + " runs at " + std::to_string(int(device.minimum_rate)) + " to " +
-                 std::to_string(int(device.maximum_rate)) + " Hz: give such a --rate.");
+  throw BadInput("The " + device.name + " runs at " + std::to_string(int(device.minimum_rate)) + " to " + std::to_string(int(device.maximum_rate)) +
+                 " Hz: give such a --rate.");
 }
 
 /// How much of the scene's stiffness the device renders without buzzing.
-double renderable_share(const Stiffness<double>& wanted, const DeviceSpecification& device,
-                        const WorkspaceMap& map) {
+double renderable_share(const Stiffness<double>& wanted, const DeviceSpecification& device, const WorkspaceMap& map) {
   double share = std::min(1.0, map.scene_stiffness(device.stiffness) / wanted.translational.maxCoeff());
   if (device.pushes_torque()) {
-    share = std::min(
-        share, map.scene_rotational_stiffness(device.rotational_stiffness) / wanted.rotational.maxCoeff());
+    share = std::min(share, map.scene_rotational_stiffness(device.rotational_stiffness) / wanted.rotational.maxCoeff());
   }
   return share;
 }
@@ -102,20 +98,17 @@ void watch(ServoLoop& loop, LatestValue<Snapshot>& latest, const ProgressSink& r
     if (!latest.fetch(snapshot)) continue;
     const auto now = SteadyClock::now();
     const std::int64_t ticks = loop.ticks();
-    report({snapshot.time, double(ticks - last_ticks) / seconds_between(last_time, now),
-            snapshot.microseconds, snapshot.contacts, snapshot.force, loop.missed()});
+    report({snapshot.time, double(ticks - last_ticks) / seconds_between(last_time, now), snapshot.microseconds, snapshot.contacts, snapshot.force,
+            loop.missed()});
     last_time = now;
     last_ticks = ticks;
   }
 }
 
 template <class Tool>
-Recording run(const scenes::Scene& scene, const Tool& tool, const SessionSettings& settings,
-              const ProgressSink& report) {
-  SimulatedPhantom phantom([&](double t) { return to_device_pose(scene.motion(t)); },
-                           device_settings(settings));
-  const std::unique_ptr<Device> real_device =
-      settings.device == "simulated" ? nullptr : open_real_device(settings);
+Recording run(const scenes::Scene& scene, const Tool& tool, const SessionSettings& settings, const ProgressSink& report) {
+  SimulatedPhantom phantom([&](double t) { return to_device_pose(scene.motion(t)); }, device_settings(settings));
+  const std::unique_ptr<Device> real_device = settings.device == "simulated" ? nullptr : open_real_device(settings);
   Device& device = real_device ? *real_device : phantom;
   if (const OpenResult opened = device.open(); !opened) throw std::runtime_error(opened.problem);
 
@@ -143,9 +136,8 @@ Recording run(const scenes::Scene& scene, const Tool& tool, const SessionSetting
   if (start == Status::inside)
     throw BadInput("The start pose of the scene " + scene.name + " is in the solid that the object encloses: start outside (--start).");
   if (start != Status::converged) {
-    throw BadInput(
-        "The start pose of the scene " + scene.name +
-        " penetrates the object: start outside (--start) or give a clearance of 0 or more (--clearance).");
+    throw BadInput("The start pose of the scene " + scene.name +
+                   " penetrates the object: start outside (--start) or give a clearance of 0 or more (--clearance).");
   }
   // Touched before the loop, with room for the longest way.
   recording.ticks.resize(std::size_t(std::ceil(settings.rate * settings.seconds)));
@@ -187,8 +179,7 @@ Recording run(const scenes::Scene& scene, const Tool& tool, const SessionSetting
                               1e-3 * double(deadline.late),
                               int(deadline.missed),
                               way_end};
-    latest.store({recording.ticks[count].time, recording.ticks[count].microseconds, tick.wrench.force.norm(),
-                  tick.contacts.size()});
+    latest.store({recording.ticks[count].time, recording.ticks[count].microseconds, tick.wrench.force.norm(), tick.contacts.size()});
     if (count == 0) first = before;
     last = before;
     ++count;
@@ -200,8 +191,7 @@ Recording run(const scenes::Scene& scene, const Tool& tool, const SessionSetting
   recording.servo = loop.wait();
   device.close();
   if (!recording.servo.problem.empty()) throw std::runtime_error(recording.servo.problem);
-  if (is_interrupted != 0)
-    throw std::runtime_error("Stopped from the keyboard: the force is off, and there is no report.");
+  if (is_interrupted != 0) throw std::runtime_error("Stopped from the keyboard: the force is off, and there is no report.");
   if (settings.record) recording.session = recorder.recording();
   recording.ticks.resize(count);
   recording.way.resize(way_end);
@@ -221,8 +211,7 @@ SimulatedPhantomSettings device_settings(const SessionSettings& settings) {
   return device;
 }
 
-Recording run_session(const scenes::Scene& scene, const SessionSettings& settings,
-                      const ProgressSink& report) {
+Recording run_session(const scenes::Scene& scene, const SessionSettings& settings, const ProgressSink& report) {
   try {
     return std::visit([&](const auto& tool) { return run(scene, tool, settings, report); }, scene.tool);
   } catch (const std::invalid_argument& refusal) {

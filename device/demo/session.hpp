@@ -41,7 +41,6 @@ SimulatedPhantomSettings device_settings(const SessionSettings& settings);
 /// A real device begins at the start pose of the scene, wherever its handle is; its first button is a clutch,
 /// and an interrupt from the keyboard stops its force.
 /// @throws BadInput when the start pose penetrates, the library refuses the mesh, or the device does not open
-Recording run_session(const scenes::Scene& scene, const SessionSettings& settings,
-                      const ProgressSink& report);
+Recording run_session(const scenes::Scene& scene, const SessionSettings& settings, const ProgressSink& report);
 
 }  // namespace feeler::demo

@@ -42,8 +42,7 @@ struct Summary {
 
 bool is_contact(const TickRecord& tick, double metric_length);
 
-Summary summarise(const scenes::Scene& scene, const Recording& recording, const Verification& verification,
-                  double wanted_rate);
+Summary summarise(const scenes::Scene& scene, const Recording& recording, const Verification& verification, double wanted_rate);
 
 /// The summary as pairs of a name and a value with its unit, for the terminal and the page alike.
 std::vector<std::pair<std::string, std::string>> table_of(const Summary& summary);

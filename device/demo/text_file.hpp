@@ -29,9 +29,7 @@ class TextFile {
 #pragma GCC diagnostic pop
     }
   }
-  void write(const std::string& text) {
-    std::fwrite(text.data(), 1, text.size(), file_.get());
-  }
+  void write(const std::string& text) { std::fwrite(text.data(), 1, text.size(), file_.get()); }
 
   void close() {
     const bool failed = std::ferror(file_.get()) != 0;
@@ -44,8 +42,7 @@ class TextFile {
   };
 
   [[noreturn]] void fail() const {
-    throw std::runtime_error("The file " + path_.string() +
-                             " cannot be written: check the folder and the space left on it.");
+    throw std::runtime_error("The file " + path_.string() + " cannot be written: check the folder and the space left on it.");
   }
 
   std::filesystem::path path_;

@@ -17,9 +17,7 @@ test::CheckedTool checked_tool_of(const scenes::Scene& scene) {
   return std::visit([](const auto& tool) { return test::checked_tool(tool); }, scene.tool);
 }
 
-bool is_same(const Pose<double>& a, const Pose<double>& b) {
-  return a.translation == b.translation && a.rotation.coeffs() == b.rotation.coeffs();
-}
+bool is_same(const Pose<double>& a, const Pose<double>& b) { return a.translation == b.translation && a.rotation.coeffs() == b.rotation.coeffs(); }
 
 /// Checks one tick after the other and keeps the deepest of each kind.
 class RunChecker {

@@ -41,14 +41,10 @@ std::optional<Place> place_of(std::string_view address) {
 
 const char* name_of(Maker maker) noexcept {
   switch (maker) {
-    case Maker::open_haptics:
-      return "openhaptics";
-    case Maker::force_dimension:
-      return "forcedimension";
-    case Maker::virtuose:
-      return "virtuose";
-    case Maker::haply:
-      return "haply";
+    case Maker::open_haptics: return "openhaptics";
+    case Maker::force_dimension: return "forcedimension";
+    case Maker::virtuose: return "virtuose";
+    case Maker::haply: return "haply";
   }
   return "unknown";
 }
@@ -131,8 +127,7 @@ std::vector<DeviceListing> list_devices() {
   for (const Maker maker : all_makers) {
     const auto device = make_device(maker);
     OpenResult opened = device->open();
-    listings.push_back(
-        {maker, opened ? device->specification() : DeviceSpecification{}, std::move(opened.problem)});
+    listings.push_back({maker, opened ? device->specification() : DeviceSpecification{}, std::move(opened.problem)});
     device->close();
   }
   return listings;

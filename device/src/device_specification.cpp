@@ -31,9 +31,7 @@ DeviceSpecification positions_only(const char* name) {
 
 // Force Dimension gives no continuous force: a quarter of the maximum is assumed, which is careful.
 // Its library reads the device at up to 4 kHz: confirmed by its manual as the theoretical rate.
-void run_fast(DeviceSpecification& device) {
-  device.maximum_rate = 4000;
-}
+void run_fast(DeviceSpecification& device) { device.maximum_rate = 4000; }
 
 }  // namespace
 
@@ -50,8 +48,7 @@ DeviceSpecification phantom_premium_3_0_6dof() {
 
   device.maximum_force = 22;    // confirmed (CHAI3D)
   device.continuous_force = 3;  // recalled
-  device.maximum_torque =
-      0.188;  // confirmed (CHAI3D); the datasheet recalls 0.515 for yaw and pitch, 0.170 for roll
+  device.maximum_torque = 0.188;  // confirmed (CHAI3D); the datasheet recalls 0.515 for yaw and pitch, 0.170 for roll
   device.continuous_torque = 0.048;  // recalled: roll; 0.188 for yaw and pitch
 
   device.stiffness = 1000;            // confirmed (CHAI3D)

@@ -71,8 +71,6 @@ DeviceStatus DirectDriver::lose(const char* why) noexcept {
   return DeviceStatus::fault;
 }
 
-void DirectDriver::say(const char* sentence) noexcept {
-  std::strncpy(complaint_.data(), sentence, complaint_.size() - 1);
-}
+void DirectDriver::say(const char* sentence) noexcept { std::strncpy(complaint_.data(), sentence, complaint_.size() - 1); }
 
 }  // namespace feeler

@@ -27,18 +27,12 @@ constexpr int most_status = 32;  // 16 or 17, by the version
 /// What switched the force off, as the status tells it.
 const char* sentence_of_cause(int cause) noexcept {
   switch (cause) {
-    case 1:
-      return "The force was switched off by the button of the device: press it again.";
-    case 2:
-      return "The handle moved faster than the device allows, so its force is off: hold it firmly and press its force button.";
-    case 3:
-      return "The device was told no force for too long, so its force is off: press its force button.";
-    case 5:
-      return "The USB cable was off, so the force of the device is off: press its force button.";
-    case 6:
-      return "The dead man's switch of the device is released: hold the handle.";
-    default:
-      return "The force of the device is off: press its force button.";
+    case 1: return "The force was switched off by the button of the device: press it again.";
+    case 2: return "The handle moved faster than the device allows, so its force is off: hold it firmly and press its force button.";
+    case 3: return "The device was told no force for too long, so its force is off: press its force button.";
+    case 5: return "The USB cable was off, so the force of the device is off: press its force button.";
+    case 6: return "The dead man's switch of the device is released: hold the handle.";
+    default: return "The force of the device is off: press its force button.";
   }
 }
 
@@ -102,14 +96,11 @@ struct Library {
              file.find("dhdErrorGetLastStr", last_error),
          }) {
       if (missing != nullptr) {
-        return "Force Dimension: " + file.path() + " has no function " + missing +
-               ": install SDK 3.10 or later, or point to its library.";
+        return "Force Dimension: " + file.path() + " has no function " + missing + ": install SDK 3.10 or later, or point to its library.";
       }
     }
-    has_robotics = file.find("drdOpenID", robotics.open) == nullptr &&
-                   file.find("drdClose", robotics.close) == nullptr &&
-                   file.find("drdIsInitialized", robotics.is_initialised) == nullptr &&
-                   file.find("drdAutoInit", robotics.initialise) == nullptr &&
+    has_robotics = file.find("drdOpenID", robotics.open) == nullptr && file.find("drdClose", robotics.close) == nullptr &&
+                   file.find("drdIsInitialized", robotics.is_initialised) == nullptr && file.find("drdAutoInit", robotics.initialise) == nullptr &&
                    file.find("drdStop", robotics.stop) == nullptr;
     return {};
   }
@@ -117,25 +108,18 @@ struct Library {
 
 DeviceSpecification preset_of(int system_type) {
   switch (system_type) {
-    case 33:
-      return omega_3();
+    case 33: return omega_3();
     case 34:
-    case 36:
-      return omega_6();
+    case 36: return omega_6();
     case 35:
-    case 37:
-      return omega_7();
-    case 60:
-      return falcon();
+    case 37: return omega_7();
+    case 60: return falcon();
     case 63:
-    case 64:
-      return delta_3();
+    case 64: return delta_3();
     case 104:
-    case 105:
-      return sigma_7();
+    case 105: return sigma_7();
     case 108:
-    case 109:
-      return lambda_7();
+    case 109: return lambda_7();
     case 131:
     case 132: {
       DeviceSpecification device = lambda_7();
@@ -193,10 +177,8 @@ class ForceDimensionDriver final : public DirectDriver {
              "check its power and USB cable, and that a udev rule lets you write to it: "
              "SUBSYSTEM==\"usb\", ATTRS{idVendor}==\"1451\", MODE=\"0666\" in /etc/udev/rules.d/.";
     }
-    if (settings_.serial_number)
-      sentence += "look if it has the serial number " + std::to_string(*settings_.serial_number) + ", and ";
-    else if (settings_.index)
-      sentence += "look if there is one with the index " + std::to_string(*settings_.index) + ", counted from 0, and ";
+    if (settings_.serial_number) sentence += "look if it has the serial number " + std::to_string(*settings_.serial_number) + ", and ";
+    else if (settings_.index) sentence += "look if there is one with the index " + std::to_string(*settings_.index) + ", counted from 0, and ";
     return sentence + "close the other program that uses it.";
   }
   std::string error() const {
@@ -216,7 +198,9 @@ class ForceDimensionDriver final : public DirectDriver {
       return "Force Dimension: the device is not calibrated: put its handle where its manual shows and follow it (a Falcon: pull it out and push it in), or "
              "set ForceDimensionSettings::initialises and take your hands off, because it moves.";
     }
-    if (!is_robot_) return "Force Dimension: the device cannot initialise itself with " + library_.file.path() + ": use libdrd, or calibrate it as its manual says.";
+    if (!is_robot_)
+      return "Force Dimension: the device cannot initialise itself with " + library_.file.path() +
+             ": use libdrd, or calibrate it as its manual says.";
     if (library_.robotics.initialise(device_) < 0 || library_.robotics.stop(true, device_) < 0 || library_.get_status(status, device_) < 0 ||
         !is_calibrated(status))
       return "Force Dimension: the device cannot initialise itself (" + error() + "): free its handle, or calibrate it as its manual says.";
@@ -236,11 +220,9 @@ class ForceDimensionDriver final : public DirectDriver {
       if (wait == 1000) return "Force Dimension: no pose came within a second: check the USB cable.";
       std::this_thread::sleep_for(std::chrono::milliseconds(1));
     }
-    if (library_.set_max_force(specification().maximum_force, device_) < 0 ||
-        library_.set_gravity_compensation(1, device_) < 0 || !push({}).is_taken ||
-        library_.enable_force(1, device_) < 0) {
-      return "Force Dimension: the device refuses to push (" + error() +
-             "): press its force button.";
+    if (library_.set_max_force(specification().maximum_force, device_) < 0 || library_.set_gravity_compensation(1, device_) < 0 ||
+        !push({}).is_taken || library_.enable_force(1, device_) < 0) {
+      return "Force Dimension: the device refuses to push (" + error() + "): press its force button.";
     }
     // It takes its time to switch the force on. What keeps it off is told by every read.
     for (int wait = 0; wait < 100 && look_for_hindrances() && hindrance_ != nullptr; ++wait)
@@ -262,8 +244,7 @@ class ForceDimensionDriver final : public DirectDriver {
     if (!is_renewed_) return nullptr;
     double ours[3][3];
     maker_frame::to_ours(frame, ours);
-    const bool is_position =
-        std::isfinite(position[0]) && std::isfinite(position[1]) && std::isfinite(position[2]);
+    const bool is_position = std::isfinite(position[0]) && std::isfinite(position[1]) && std::isfinite(position[2]);
     if (!is_position || !nearest_rotation(ours, state.pose.orientation))
       return "The device reports a pose that is none: calibrate it as its manual says.";
     maker_frame::to_ours(position, state.pose.position);
@@ -294,8 +275,7 @@ class ForceDimensionDriver final : public DirectDriver {
     if (!specification().pushes_torque()) std::fill(t, t + 3, 0.0);
     const int answer = library_.set_wrench(f[0], f[1], f[2], t[0], t[1], t[2], 0, device_);
     if (answer < 0) return {false, reason()};
-    if (answer == motors_saturated)
-      return {true, "The motors give all they can and less than was asked for: lower the stiffness."};
+    if (answer == motors_saturated) return {true, "The motors give all they can and less than was asked for: lower the stiffness."};
     return {true};
   }
 

@@ -13,9 +13,7 @@ void require(bool holds, const char* sentence) {
 }
 
 // False for a NaN.
-bool is_within(double value, double low, double high) noexcept {
-  return value >= low && value <= high;
-}
+bool is_within(double value, double low, double high) noexcept { return value >= low && value <= high; }
 
 /// 25 ticks at the slowest rate that the device accepts: 0.05 s for most [s].
 double latest_tick_of_all(const DeviceSpecification& device) noexcept {
@@ -44,27 +42,21 @@ void check(const ForceLimits& limits, const DeviceSpecification& device) {
   require(limits.continuous_force > 0 && limits.continuous_force <= limits.maximum_force,
           "force limits: the continuous force must be positive and at most the maximum; a quarter of it is "
           "careful");
-  require(is_within(limits.maximum_torque, 0, device.maximum_torque),
-          "force limits: the maximum torque must be at least 0 and at most the device's");
-  require(
-      is_within(limits.continuous_torque, 0, limits.maximum_torque) &&
-          (limits.continuous_torque > 0) == (limits.maximum_torque > 0),
-      "force limits: the continuous torque must be positive where torque is pushed, and at most the maximum");
+  require(is_within(limits.maximum_torque, 0, device.maximum_torque), "force limits: the maximum torque must be at least 0 and at most the device's");
+  require(is_within(limits.continuous_torque, 0, limits.maximum_torque) && (limits.continuous_torque > 0) == (limits.maximum_torque > 0),
+          "force limits: the continuous torque must be positive where torque is pushed, and at most the maximum");
   require(limits.force_slew > 0 && limits.force_slew <= 1000 * limits.maximum_force,
           "force limits: the force must take at least a millisecond to grow to its maximum");
-  require(limits.maximum_torque == 0 ||
-              (limits.torque_slew > 0 && limits.torque_slew <= 1000 * limits.maximum_torque),
+  require(limits.maximum_torque == 0 || (limits.torque_slew > 0 && limits.torque_slew <= 1000 * limits.maximum_torque),
           "force limits: the torque must take at least a millisecond to grow to its maximum");
-  require(is_within(limits.free_force, 0, 0.1 * limits.maximum_force) &&
-              is_within(limits.free_torque, 0, 0.1 * limits.maximum_torque),
+  require(is_within(limits.free_force, 0, 0.1 * limits.maximum_force) && is_within(limits.free_torque, 0, 0.1 * limits.maximum_torque),
           "force limits: a pose is free below a tenth of the maximum at most");
   require(is_within(limits.ramp_time, 0.05, 60), "force limits: the ramp must take 0.05 to 60 s");
   require(is_within(limits.fade_time, 0, 0.002), "force limits: the fade must take 0 to 0.002 s");
   require(is_within(limits.latest_tick, 0.0005, latest_tick_of_all(device)),
           "force limits: the latest tick must be 0.0005 s to 25 ticks at the slowest rate of the device");
   require(is_within(limits.heating_time, 1, 100), "force limits: the motors heat in 1 to 100 s");
-  require(is_within(limits.warm_temperature, 0, 0.95),
-          "force limits: motors are warm from a share of 0 to 0.95 on");
+  require(is_within(limits.warm_temperature, 0, 0.95), "force limits: motors are warm from a share of 0 to 0.95 on");
 }
 
 }  // namespace feeler

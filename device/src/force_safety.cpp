@@ -11,12 +11,8 @@ namespace {
 
 constexpr double warm_heat = 0.8;  // of the budget, where the limit begins to fall
 
-double dot(const double (&a)[3], const double (&b)[3]) noexcept {
-  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
-double length(const double (&v)[3]) noexcept {
-  return std::hypot(v[0], v[1], v[2]);
-}
+double dot(const double (&a)[3], const double (&b)[3]) noexcept { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
+double length(const double (&v)[3]) noexcept { return std::hypot(v[0], v[1], v[2]); }
 
 bool is_finite(const DevicePose& pose) noexcept {
   double sum = 0;
@@ -26,9 +22,7 @@ bool is_finite(const DevicePose& pose) noexcept {
 }
 
 /// What is left of a limit: all of it below `warm`, nothing at 1.
-double share_left(double heat, double warm) noexcept {
-  return std::clamp((1 - heat) / (1 - warm), 0.0, 1.0);
-}
+double share_left(double heat, double warm) noexcept { return std::clamp((1 - heat) / (1 - warm), 0.0, 1.0); }
 
 /// Steps h' = (|F|²/F_c² − h)/τ, exactly for a constant force.
 void warm_up(double& heat, double force, double continuous, double heating_time, double time) noexcept {
@@ -60,38 +54,25 @@ DeviceWrench scaled(const DeviceWrench& wrench, double share) noexcept {
 
 const char* to_string(ForceFault fault) noexcept {
   switch (fault) {
-    case ForceFault::none:
-      return "no fault";
-    case ForceFault::late_tick:
-      return "a tick was late: the force fades and comes back";
-    case ForceFault::stale_pose:
-      return "the device repeats an old pose: the force fades and comes back with a new one";
-    case ForceFault::device_warning:
-      return "the device complains: the force is off, and comes back once the pose is free";
-    case ForceFault::hot_motors:
-      return "the motors are hot: let them cool; the force is off, and comes back once the pose is free";
-    case ForceFault::not_finite:
-      return "a pose or a wrench was not finite: the force is off until it is restarted";
-    case ForceFault::emergency_stop:
-      return "the program stopped the force: it is off until it is restarted";
-    case ForceFault::device_lost:
-      return "the device is lost: the force is off";
+    case ForceFault::none: return "no fault";
+    case ForceFault::late_tick: return "a tick was late: the force fades and comes back";
+    case ForceFault::stale_pose: return "the device repeats an old pose: the force fades and comes back with a new one";
+    case ForceFault::device_warning: return "the device complains: the force is off, and comes back once the pose is free";
+    case ForceFault::hot_motors: return "the motors are hot: let them cool; the force is off, and comes back once the pose is free";
+    case ForceFault::not_finite: return "a pose or a wrench was not finite: the force is off until it is restarted";
+    case ForceFault::emergency_stop: return "the program stopped the force: it is off until it is restarted";
+    case ForceFault::device_lost: return "the device is lost: the force is off";
   }
   return "unknown fault";
 }
 
 const char* to_string(ForcePhase phase) noexcept {
   switch (phase) {
-    case ForcePhase::waiting:
-      return "waiting for a free pose";
-    case ForcePhase::ramping:
-      return "ramping";
-    case ForcePhase::on:
-      return "on";
-    case ForcePhase::fading:
-      return "fading";
-    case ForcePhase::stopped:
-      return "stopped";
+    case ForcePhase::waiting: return "waiting for a free pose";
+    case ForcePhase::ramping: return "ramping";
+    case ForcePhase::on: return "on";
+    case ForcePhase::fading: return "fading";
+    case ForcePhase::stopped: return "stopped";
   }
   return "unknown phase";
 }
@@ -130,8 +111,7 @@ ForceFault ForceSafety::stopping_fault(const Tick& tick) noexcept {
   if (tick.status == DeviceStatus::fault || tick.status == DeviceStatus::not_open) is_lost_ = true;
   if (is_lost_) return ForceFault::device_lost;
   if (tick.request == ForceRequest::stop) return ForceFault::emergency_stop;
-  if (!is_finite(tick.wanted) || !is_finite(tick.state.pose) || !std::isfinite(tick.state.time))
-    return ForceFault::not_finite;
+  if (!is_finite(tick.wanted) || !is_finite(tick.state.pose) || !std::isfinite(tick.state.time)) return ForceFault::not_finite;
   if (tick.request == ForceRequest::restart && phase_ == ForcePhase::stopped) phase_ = ForcePhase::waiting;
   return ForceFault::none;
 }
@@ -142,8 +122,7 @@ ForceFault ForceSafety::passing_fault(const Tick& tick) const noexcept {
   if (!(tick.age <= limits_.latest_tick)) return ForceFault::late_tick;
   if (!has_pose_) return ForceFault::none;
   if (!(tick.state.time - pose_time_ <= limits_.latest_tick)) return ForceFault::late_tick;
-  if (tick.state.time <= pose_time_ && tick.now - renewed_at_ > limits_.latest_tick)
-    return ForceFault::stale_pose;
+  if (tick.state.time <= pose_time_ && tick.now - renewed_at_ > limits_.latest_tick) return ForceFault::stale_pose;
   return ForceFault::none;
 }
 
@@ -185,8 +164,7 @@ DeviceWrench ForceSafety::allowed(const Tick& tick, ForceFault passing) noexcept
   }
 
   if (phase_ == ForcePhase::waiting) {
-    const bool is_free =
-        length(wrench.force) <= limits_.free_force && length(wrench.torque) <= limits_.free_torque;
+    const bool is_free = length(wrench.force) <= limits_.free_force && length(wrench.torque) <= limits_.free_torque;
     if (!is_free || passing != ForceFault::none) return {};
     share_ = 0;
     phase_ = ForcePhase::ramping;

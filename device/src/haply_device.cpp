@@ -152,10 +152,9 @@ class HaplyDriver final : public Device, private InverseService::Client {
 
     const ServiceArm* chosen = &inventory.arms.front();
     if (!settings_.serial_number.empty()) {
-      const auto found = std::find_if(inventory.arms.begin(), inventory.arms.end(),
-                                      [this](const ServiceArm& arm) { return arm.id == settings_.serial_number; });
-      if (found == inventory.arms.end())
-        return refused("no Inverse3 has the serial number ") + settings_.serial_number + known();
+      const auto found =
+          std::find_if(inventory.arms.begin(), inventory.arms.end(), [this](const ServiceArm& arm) { return arm.id == settings_.serial_number; });
+      if (found == inventory.arms.end()) return refused("no Inverse3 has the serial number ") + settings_.serial_number + known();
       chosen = &*found;
     } else if (settings_.index) {
       if (*settings_.index < 0 || std::size_t(*settings_.index) >= inventory.arms.size())
@@ -256,11 +255,11 @@ class HaplyDriver final : public Device, private InverseService::Client {
       sample.is_whole = sample.is_whole || (found->has_position && (grip_.empty() || has_orientation_));
     }
     if (!is_loss(sample.trouble)) {
-      sample.trouble = !is_calibrated_                            ? Trouble::uncalibrated
-                       : !has_power_                              ? Trouble::powerless
-                       : !is_ready_                               ? Trouble::unready
+      sample.trouble = !is_calibrated_                           ? Trouble::uncalibrated
+                       : !has_power_                             ? Trouble::powerless
+                       : !is_ready_                              ? Trouble::unready
                        : !(is_grip_connected_ && is_grip_awake_) ? Trouble::without_grip
-                                                                  : Trouble::none;
+                                                                 : Trouble::none;
     }
     received_.store(sample);
   }

@@ -103,8 +103,7 @@ class InverseService::Connection {
       outgoing_ = force_message(arm_, {0, 0, 0});
       is_connected_ = !within(last_patience, [&](auto done) { stream_.async_write(asio::buffer(outgoing_), done); });
     }
-    if (is_connected_ && !is_writing_)
-      within(last_patience, [&](auto done) { stream_.async_close(websocket::close_code::normal, done); });
+    if (is_connected_ && !is_writing_) within(last_patience, [&](auto done) { stream_.async_close(websocket::close_code::normal, done); });
     disconnect();
   } catch (const std::exception&) {
     disconnect();
@@ -118,8 +117,7 @@ class InverseService::Connection {
     start([&outcome](const error_code& error, auto&&...) { outcome = error; });
     const auto give_up_at = steady_clock::now() + longest;
     context_.restart();
-    while (!outcome && context_.run_one_until(give_up_at) > 0) {
-    }
+    while (!outcome && context_.run_one_until(give_up_at) > 0) {}
     if (outcome) return *outcome;
     disconnect();
     return asio::error::timed_out;

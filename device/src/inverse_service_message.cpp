@@ -19,9 +19,7 @@ const json* member(const json* object, const char* name) {
   return found == object->end() ? nullptr : &*found;
 }
 
-std::string text_of(const json* value) {
-  return value != nullptr && value->is_string() ? value->get<std::string>() : std::string();
-}
+std::string text_of(const json* value) { return value != nullptr && value->is_string() ? value->get<std::string>() : std::string(); }
 
 std::optional<bool> answer_of(const json* object, const char* name) {
   const json* const value = member(object, name);

@@ -17,8 +17,7 @@ void to_ours(const From& maker, To& ours) noexcept {
 
 template <class From, class To>
 void to_maker(const From& ours, To& maker) noexcept {
-  for (int i = 0; i < 3; ++i)
-    maker[axis_of[i]] = static_cast<std::remove_reference_t<decltype(maker[0])>>(ours[i]);
+  for (int i = 0; i < 3; ++i) maker[axis_of[i]] = static_cast<std::remove_reference_t<decltype(maker[0])>>(ours[i]);
 }
 
 /// The axes of the handle are permuted too, so that a handle at rest stays the identity.

@@ -44,16 +44,13 @@ struct Command {
 DeviceSpecification preset_of(const std::string& model) {
   const auto says = [&model](const char* word) { return model.find(word) != std::string::npos; };
   if (says("Premium 3")) return phantom_premium_3_0_6dof();
-  if (says("Premium 1.5 H") || says("1.5HF") || says("1.5 High"))
-    return phantom_premium_1_5_high_force_6dof();
+  if (says("Premium 1.5 H") || says("1.5HF") || says("1.5 High")) return phantom_premium_1_5_high_force_6dof();
   if (says("Premium")) return phantom_premium_1_5_6dof();
   if (says("Touch X") || says("Desktop")) return touch_x();
   return touch();
 }
 
-bool is_plausible(double figure) noexcept {
-  return figure > 0 && figure < 1e6;
-}
+bool is_plausible(double figure) noexcept { return figure > 0 && figure < 1e6; }
 
 class OpenHapticsDriver final : public Device, private Framed {
  public:
@@ -62,8 +59,7 @@ class OpenHapticsDriver final : public Device, private Framed {
 
   OpenResult open() override {
     if (is_open_) return {};
-    if (std::string problem = library_.load(settings_.libraries); !problem.empty())
-      return {std::move(problem)};
+    if (std::string problem = library_.load(settings_.libraries); !problem.empty()) return {std::move(problem)};
     const std::lock_guard lock(scheduler_.opening);
     if (std::string problem = claim(); !problem.empty()) {
       release();
@@ -93,8 +89,7 @@ class OpenHapticsDriver final : public Device, private Framed {
     if (!is_open_) return DeviceStatus::not_open;
     const bool is_good = is_finite(wrench);
     Command command;
-    if (is_good)
-      command.wrench = limited(wrench, specification_.maximum_force, specification_.maximum_torque);
+    if (is_good) command.wrench = limited(wrench, specification_.maximum_force, specification_.maximum_torque);
     command.errors_known = errors_read_;
     commands_.store(command);
     if (sample_.is_lost) return DeviceStatus::fault;
@@ -140,19 +135,15 @@ class OpenHapticsDriver final : public Device, private Framed {
   std::string await_session() {
     for (int wait = 0; wait < 1000; ++wait) {
       if (samples_.fetch(sample_)) {
-        if (sample_.is_lost)
-          return "OpenHaptics: the device failed with its first pose: " + std::string(sample_.complaint);
+        if (sample_.is_lost) return "OpenHaptics: the device failed with its first pose: " + std::string(sample_.complaint);
         errors_read_ = sample_.errors;
         if (sample_.calibration == calibrated && sample_.has_pose) return {};
-        if (sample_.calibration == needs_manual_input ||
-            (sample_.calibration == needs_update && calibration_style_ == 0))
-          break;
+        if (sample_.calibration == needs_manual_input || (sample_.calibration == needs_update && calibration_style_ == 0)) break;
       }
       std::this_thread::sleep_for(std::chrono::milliseconds(1));
     }
     if (sample_.calibration == 0) {  // not one frame, so nobody else asks for errors
-      if (const unsigned int error = drain_errors(); error != success)
-        return "OpenHaptics: the servo thread cannot be started: " + text_of(error);
+      if (const unsigned int error = drain_errors(); error != success) return "OpenHaptics: the servo thread cannot be started: " + text_of(error);
     }
     const std::string complaint = sample_.complaint;
     if (sample_.calibration == calibrated || sample_.calibration == 0) {
@@ -161,9 +152,8 @@ class OpenHapticsDriver final : public Device, private Framed {
     }
     if (!complaint.empty()) return "OpenHaptics: the device cannot be calibrated: " + complaint;
     return std::string("OpenHaptics: the device is not calibrated: ") +
-           (sample_.calibration == needs_manual_input
-                ? "put the stylus into its inkwell, or hold the arm as the manual shows, "
-                : "move the handle through its workspace and put it to rest, ") +
+           (sample_.calibration == needs_manual_input ? "put the stylus into its inkwell, or hold the arm as the manual shows, "
+                                                      : "move the handle through its workspace and put it to rest, ") +
            "run the calibration of the driver's setup program, then start again.";
   }
 
@@ -196,11 +186,9 @@ class OpenHapticsDriver final : public Device, private Framed {
     const std::string name = model != nullptr ? model : "";
     specification_ = preset_of(name);
     if (!name.empty()) specification_.name = name;
-    if (is_plausible(stiffness))
-      specification_.stiffness = std::min(specification_.stiffness, 1000 * stiffness);
+    if (is_plausible(stiffness)) specification_.stiffness = std::min(specification_.stiffness, 1000 * stiffness);
     if (is_plausible(force)) specification_.maximum_force = force;
-    if (is_plausible(continuous))
-      specification_.continuous_force = std::min(continuous, specification_.maximum_force);
+    if (is_plausible(continuous)) specification_.continuous_force = std::min(continuous, specification_.maximum_force);
     if (rate > 0) specification_.nominal_rate = rate;
     if (degrees < 6) specification_.lose_torque();
     return {};
@@ -229,16 +217,14 @@ class OpenHapticsDriver final : public Device, private Framed {
       frame_.state.motor_temperature = *std::max_element(temperatures, temperatures + most_motors);
     }
     if (note_errors()) {
-      if (!take_pose(transform))
-        lose("The device reports a pose that is none: check its encoders, then calibrate it.");
+      if (!take_pose(transform)) lose("The device reports a pose that is none: check its encoders, then calibrate it.");
       frame_.has_pose = true;
       frame_.state.buttons = std::uint32_t(buttons);
       frame_.state.time = time();
     }
 
     frames_unfed_ = commands_.fetch(command_) ? 0 : frames_unfed_ + 1;
-    const bool is_fed = !must_be_silent && frames_unfed_ <= patience && !frame_.is_lost &&
-                        command_.errors_known == frame_.errors;
+    const bool is_fed = !must_be_silent && frames_unfed_ <= patience && !frame_.is_lost && command_.errors_known == frame_.errors;
     push(is_fed ? command_.wrench : DeviceWrench{});
     library_.end_frame(handle_);
     note_errors();
@@ -251,15 +237,13 @@ class OpenHapticsDriver final : public Device, private Framed {
   /// else, outside of a frame, and only before a session, because poses jump.
   void calibrate() noexcept {
     frame_.calibration = library_.check_calibration();
-    if (frame_.calibration == needs_update && calibration_style_ != 0)
-      library_.update_calibration(calibration_style_);
+    if (frame_.calibration == needs_update && calibration_style_ != 0) library_.update_calibration(calibration_style_);
   }
 
   void push(const DeviceWrench& wrench) noexcept {
     library_.set_doubles(current_force, wrench.force);
     if (!specification_.pushes_torque()) return;
-    const double millinewton_metres[3] = {1000 * wrench.torque[0], 1000 * wrench.torque[1],
-                                          1000 * wrench.torque[2]};
+    const double millinewton_metres[3] = {1000 * wrench.torque[0], 1000 * wrench.torque[1], 1000 * wrench.torque[2]};
     library_.set_doubles(current_torque, millinewton_metres);
   }
 
@@ -282,10 +266,8 @@ class OpenHapticsDriver final : public Device, private Framed {
       const Error error = library_.get_error();
       if (error.code == success) break;
       Framed* const other = error.handle == handle_ ? nullptr : scheduler_.device_of(error.handle);
-      if (other != nullptr)
-        other->take_error(error.code);
-      else if (severity(error.code) > severity(worst))
-        worst = error.code;
+      if (other != nullptr) other->take_error(error.code);
+      else if (severity(error.code) > severity(worst)) worst = error.code;
     }
     take_error(worst);
     return severity(worst) <= 1;
@@ -326,8 +308,7 @@ class OpenHapticsDriver final : public Device, private Framed {
   }
 
   std::string text_of(unsigned int code) const {
-    if (code == success)
-      return "libHD gave no handle: run the setup program of its driver and choose a default device.";
+    if (code == success) return "libHD gave no handle: run the setup program of its driver and choose a default device.";
     if (const char* const text = sentence_of(code)) return text;
     const char* const text = library_.get_error_string(code);
     return text != nullptr ? "libHD says: " + std::string(text) + "." : "libHD does not say why.";

@@ -34,8 +34,7 @@ std::string Library::load(const std::vector<std::string>& candidates) {
            file.find("hdUnschedule", unschedule),
        }) {
     if (missing != nullptr) {
-      return "OpenHaptics: " + file.path() + " has no function " + missing +
-             ": install OpenHaptics 3.0 or later, or point to its libHD.so.";
+      return "OpenHaptics: " + file.path() + " has no function " + missing + ": install OpenHaptics 3.0 or later, or point to its libHD.so.";
     }
   }
   return {};
@@ -43,21 +42,15 @@ std::string Library::load(const std::vector<std::string>& candidates) {
 
 const char* sentence_of(unsigned int code) noexcept {
   switch (code) {
-    case warm_motors:
-      return "The motors are warm (0x0200): let the device rest.";
-    case exceeded_max_force:
-      return "More force was asked for than the device allows (0x0201): lower the stiffness.";
+    case warm_motors: return "The motors are warm (0x0200): let the device rest.";
+    case exceeded_max_force: return "More force was asked for than the device allows (0x0201): lower the stiffness.";
     case exceeded_max_force_impulse:
       return "The force changed faster than the device allows (0x0202): lower the stiffness or the slew "
              "limit.";
-    case exceeded_max_velocity:
-      return "The handle moved faster than the device allows (0x0203): hold it firmly.";
-    case force_error:
-      return "The device reports a force error (0x0204): let go, then start again.";
-    case device_fault:
-      return "The device reports a fault (0x0300): wait, and if it stays, switch it off and on.";
-    case device_already_initiated:
-      return "The device is in use already (0x0301): close the other program that has opened it.";
+    case exceeded_max_velocity: return "The handle moved faster than the device allows (0x0203): hold it firmly.";
+    case force_error: return "The device reports a force error (0x0204): let go, then start again.";
+    case device_fault: return "The device reports a fault (0x0300): wait, and if it stays, switch it off and on.";
+    case device_already_initiated: return "The device is in use already (0x0301): close the other program that has opened it.";
     case communication_error:
       return "The device does not answer (0x0302): check its power and cable, and that you may write to its "
              "node in /dev "
@@ -65,12 +58,9 @@ const char* sentence_of(unsigned int code) noexcept {
     case communication_configuration:
       return "The connection of the device is configured wrongly (0x0303): run the setup program of its "
              "driver.";
-    case timer_error:
-      return "The driver cannot start its servo timer (0x0304): end other programs that use the device.";
-    case invalid_license:
-      return "OpenHaptics finds no valid licence (0x0600): install the licence that came with it.";
-    default:
-      return nullptr;
+    case timer_error: return "The driver cannot start its servo timer (0x0304): end other programs that use the device.";
+    case invalid_license: return "OpenHaptics finds no valid licence (0x0600): install the licence that came with it.";
+    default: return nullptr;
   }
 }
 
@@ -81,10 +71,8 @@ bool ends_session(unsigned int code) noexcept {
     case communication_configuration:
     case timer_error:
     case invalid_priority:
-    case scheduler_full:
-      return true;
-    default:
-      return false;
+    case scheduler_full: return true;
+    default: return false;
   }
 }
 

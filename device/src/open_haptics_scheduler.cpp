@@ -52,8 +52,7 @@ void Scheduler::join(const Library& library, Framed& device) {
 void Scheduler::leave(const Library& library, Framed& device, const std::string& name) {
   const auto place = std::find(devices_.begin(), devices_.end(), &device);
   if (place != devices_.end()) {
-    const bool has_others =
-        std::count(devices_.begin(), devices_.end(), nullptr) < std::ptrdiff_t(devices_.size()) - 1;
+    const bool has_others = std::count(devices_.begin(), devices_.end(), nullptr) < std::ptrdiff_t(devices_.size()) - 1;
     const bool was_told = has_others && has_turned();
     *place = nullptr;
     if (was_told && has_turned()) {  // no frame of it is under way any more

@@ -16,12 +16,9 @@ namespace {
 using Axes = std::array<double, 6>;  // linear, then angular
 
 Axes axes_of(const DeviceWrench& wrench) noexcept {
-  return {wrench.force[0],  wrench.force[1],  wrench.force[2],
-          wrench.torque[0], wrench.torque[1], wrench.torque[2]};
+  return {wrench.force[0], wrench.force[1], wrench.force[2], wrench.torque[0], wrench.torque[1], wrench.torque[2]};
 }
-DeviceWrench wrench_of(const Axes& axes) noexcept {
-  return {{axes[0], axes[1], axes[2]}, {axes[3], axes[4], axes[5]}};
-}
+DeviceWrench wrench_of(const Axes& axes) noexcept { return {{axes[0], axes[1], axes[2]}, {axes[3], axes[4], axes[5]}}; }
 
 bool is_nothing(const Axes& wrench) noexcept {
   return std::all_of(wrench.begin(), wrench.end(), [](double component) { return component == 0; });
@@ -29,10 +26,8 @@ bool is_nothing(const Axes& wrench) noexcept {
 
 /// p(n) − p(n−1) [m] and Log(R(n) R(n−1)ᵀ) [rad]. Flattened for the reason given in simulated_hand.cpp.
 [[gnu::flatten]] Axes motion_of(const DevicePose& from, const DevicePose& to) noexcept {
-  const auto twist = motion_between(from_device<Pose<double>>(from).normalized(),
-                                    from_device<Pose<double>>(to).normalized());
-  return {twist.linear[0],  twist.linear[1],  twist.linear[2],
-          twist.angular[0], twist.angular[1], twist.angular[2]};
+  const auto twist = motion_between(from_device<Pose<double>>(from).normalized(), from_device<Pose<double>>(to).normalized());
+  return {twist.linear[0], twist.linear[1], twist.linear[2], twist.angular[0], twist.angular[1], twist.angular[2]};
 }
 
 bool is_pose(const DeviceState& state) noexcept {
@@ -58,16 +53,13 @@ PassivitySettings passivity_of(const DeviceSpecification& device, double period)
 
 PassivityControl::PassivityControl(const PassivitySettings& settings) : settings_(settings) {
   const auto is_amount = [](double value) { return std::isfinite(value) && value >= 0; };
-  if (!is_amount(settings.damping) || !is_amount(settings.rotational_damping) ||
-      !is_amount(settings.allowance)) {
+  if (!is_amount(settings.damping) || !is_amount(settings.rotational_damping) || !is_amount(settings.allowance)) {
     refuse(
         "passivity control: dampings and allowance must be finite and not negative; take them from "
         "passivity_of");
   }
-  if (settings.delay != 0 && settings.delay != 1)
-    refuse("passivity control: a wrench is pushed 0 or 1 ticks after its write");
-  for (std::size_t axis = 0; axis < 6; ++axis)
-    damping_[axis] = axis < 3 ? settings.damping : settings.rotational_damping;
+  if (settings.delay != 0 && settings.delay != 1) refuse("passivity control: a wrench is pushed 0 or 1 ticks after its write");
+  for (std::size_t axis = 0; axis < 6; ++axis) damping_[axis] = axis < 3 ? settings.damping : settings.rotational_damping;
 }
 
 DeviceWrench PassivityControl::damped(const DeviceState& state, const DeviceWrench& wanted) noexcept {
@@ -92,8 +84,7 @@ DeviceWrench PassivityControl::damped(const DeviceState& state, const DeviceWren
   }
   report_.energy = total;
   const bool is_total = settings_.sum == EnergySum::total;
-  report_.lowest_energy =
-      std::min(report_.lowest_energy, is_total ? total : *std::min_element(energy_.begin(), energy_.end()));
+  report_.lowest_energy = std::min(report_.lowest_energy, is_total ? total : *std::min_element(energy_.begin(), energy_.end()));
   if (!(time > 0)) return wanted;
 
   Axes velocity{};

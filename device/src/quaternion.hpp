@@ -22,12 +22,10 @@ inline void conjugate(const Quaternion& q, Quaternion& result) noexcept {
 inline void rotate(const Quaternion& q, const double (&v)[3], double (&result)[3]) noexcept {
   const double* u = q + 1;
   double once[3];
-  for (int i = 0; i < 3; ++i)
-    once[i] = 2 * (u[(i + 1) % 3] * v[(i + 2) % 3] - u[(i + 2) % 3] * v[(i + 1) % 3]);
+  for (int i = 0; i < 3; ++i) once[i] = 2 * (u[(i + 1) % 3] * v[(i + 2) % 3] - u[(i + 2) % 3] * v[(i + 1) % 3]);
   double turned[3];
   for (int i = 0; i < 3; ++i) {
-    turned[i] =
-        v[i] + q[0] * once[i] + u[(i + 1) % 3] * once[(i + 2) % 3] - u[(i + 2) % 3] * once[(i + 1) % 3];
+    turned[i] = v[i] + q[0] * once[i] + u[(i + 1) % 3] * once[(i + 2) % 3] - u[(i + 2) % 3] * once[(i + 1) % 3];
   }
   for (int i = 0; i < 3; ++i) result[i] = turned[i];
 }

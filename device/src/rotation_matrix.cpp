@@ -9,9 +9,7 @@ namespace {
 
 using Matrix = double[3][3];
 
-double dot(const double (&a)[3], const double (&b)[3]) noexcept {
-  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
+double dot(const double (&a)[3], const double (&b)[3]) noexcept { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
 
 /// Rows b × c, c × a, a × b of the rows a, b, c: the determinant times the inverse transpose.
 void cofactors(const Matrix& m, Matrix& result) noexcept {

@@ -79,8 +79,7 @@ void ServoLoop::run() {
   if (withheld) request.fifo = false;
   report_.setup = enter_real_time(request);
   if (withheld) {
-    report_.setup.refused.push_back(
-        "SCHED_FIFO was not asked for: a loop that never waits would freeze its processor; give it a rate.");
+    report_.setup.refused.push_back("SCHED_FIFO was not asked for: a loop that never waits would freeze its processor; give it a rate.");
   }
   is_set_up_.count_down();
   try {
@@ -161,8 +160,7 @@ void ServoLoop::loop() {
   std::int64_t deadline = first;
   ServoTick tick;
   bool goes_on = true;
-  while (goes_on && !is_stopping_.load(std::memory_order_relaxed) &&
-         (settings_.tick_limit == 0 || tick.index < settings_.tick_limit)) {
+  while (goes_on && !is_stopping_.load(std::memory_order_relaxed) && (settings_.tick_limit == 0 || tick.index < settings_.tick_limit)) {
     if (waits) clock_.sleep_until(deadline);
     const std::int64_t start = clock_.now();
     tick.late = waits ? start - deadline : 0;

@@ -10,9 +10,8 @@ namespace {
 void write_tail(std::ostream& out, const char* name, const Histogram& histogram) {
   if (histogram.count() == 0) return;
   const auto microseconds = [](std::int64_t nanoseconds) { return double(nanoseconds) / 1000; };
-  out << name << " [us]: median " << microseconds(histogram.percentile(50)) << ", p99 "
-      << microseconds(histogram.percentile(99)) << ", p99.9 " << microseconds(histogram.percentile(99.9)) << ", max "
-      << microseconds(histogram.maximum()) << "\n";
+  out << name << " [us]: median " << microseconds(histogram.percentile(50)) << ", p99 " << microseconds(histogram.percentile(99)) << ", p99.9 "
+      << microseconds(histogram.percentile(99.9)) << ", max " << microseconds(histogram.maximum()) << "\n";
 }
 
 void write_force(std::ostream& out, const ForceReport& force) {
@@ -23,8 +22,8 @@ void write_force(std::ostream& out, const ForceReport& force) {
   if (force.ticks_shortened > 0) out << "force: shortened to what the device can push in " << force.ticks_shortened << " ticks\n";
   if (force.ticks_slowed > 0) out << "force: growth slowed in " << force.ticks_slowed << " ticks\n";
   if (force.ticks_without_torque > 0) {
-    out << "torque: the device has no motors for it; dropped in " << force.ticks_without_torque << " ticks, at most "
-        << force.peak_lost_torque << " N m\n";
+    out << "torque: the device has no motors for it; dropped in " << force.ticks_without_torque << " ticks, at most " << force.peak_lost_torque
+        << " N m\n";
   }
 }
 
@@ -53,8 +52,8 @@ std::string to_string(const ServoReport& report) {
   }
   write_force(out, report.force);
   if (report.passivity.ticks_damped > 0) {
-    out << "passivity: the renderer gave the hand up to " << -report.passivity.lowest_energy << " J; damped in "
-        << report.passivity.ticks_damped << " ticks\n";
+    out << "passivity: the renderer gave the hand up to " << -report.passivity.lowest_energy << " J; damped in " << report.passivity.ticks_damped
+        << " ticks\n";
   }
   if (!report.problem.empty()) out << report.problem << "\n";
   return out.str();

@@ -39,8 +39,7 @@ void visit_head(Recording& recording, const Visit& visit) {
   for (auto& is_pushed : device.is_pushed) visit(is_pushed);
   auto& limits = recording.limits;
   visit(limits.maximum_force), visit(limits.continuous_force), visit(limits.maximum_torque);
-  visit(limits.continuous_torque), visit(limits.force_slew), visit(limits.torque_slew),
-      visit(limits.free_force);
+  visit(limits.continuous_torque), visit(limits.force_slew), visit(limits.torque_slew), visit(limits.free_force);
   visit(limits.free_torque), visit(limits.ramp_time), visit(limits.fade_time), visit(limits.latest_tick);
   visit(limits.heating_time), visit(limits.warm_temperature), visit(recording.lost);
 }
@@ -63,13 +62,9 @@ void from_word(Word word, Value& value) {
   }
 }
 
-[[noreturn]] void fail(const std::filesystem::path& file, const char* what) {
-  throw std::runtime_error("The session " + file.string() + what);
-}
+[[noreturn]] void fail(const std::filesystem::path& file, const char* what) { throw std::runtime_error("The session " + file.string() + what); }
 
-bool is_same(const DeviceWrench& a, const DeviceWrench& b) noexcept {
-  return std::memcmp(&a, &b, sizeof a) == 0;
-}
+bool is_same(const DeviceWrench& a, const DeviceWrench& b) noexcept { return std::memcmp(&a, &b, sizeof a) == 0; }
 
 }  // namespace
 
@@ -82,9 +77,7 @@ void SessionRecorder::describe(const DeviceSpecification& device, const ForceLim
   lost_ = 0;
 }
 
-SessionRecording SessionRecorder::recording() const {
-  return {device_, limits_, {ticks_.begin(), ticks_.begin() + std::ptrdiff_t(count_)}, lost_};
-}
+SessionRecording SessionRecorder::recording() const { return {device_, limits_, {ticks_.begin(), ticks_.begin() + std::ptrdiff_t(count_)}, lost_}; }
 
 void save(const SessionRecording& recording, const std::filesystem::path& file) {
   std::vector<Word> words{magic, Word(recording.ticks.size()), Word(recording.device.name.size())};
@@ -120,8 +113,7 @@ SessionRecording load_session(const std::filesystem::path& file) {
   return recording;
 }
 
-Replay replay(const SessionRecording& recording,
-              const std::function<DeviceWrench(const DeviceState&)>& render) {
+Replay replay(const SessionRecording& recording, const std::function<DeviceWrench(const DeviceState&)>& render) {
   ForceSafety safety(recording.limits, recording.device);
   Replay result;
   for (const SessionTick& recorded : recording.ticks) {
@@ -129,10 +121,8 @@ Replay replay(const SessionRecording& recording,
     const bool was_rendered = tick.status == DeviceStatus::ok || tick.status == DeviceStatus::warning;
     if (render && was_rendered) tick.wanted = render(tick.state);
     const auto index = std::int64_t(result.ticks++);
-    if (result.first_other_wish < 0 && !is_same(tick.wanted, recorded.tick.wanted))
-      result.first_other_wish = index;
-    if (result.first_other_push < 0 && !is_same(safety.step(tick), recorded.pushed))
-      result.first_other_push = index;
+    if (result.first_other_wish < 0 && !is_same(tick.wanted, recorded.tick.wanted)) result.first_other_wish = index;
+    if (result.first_other_push < 0 && !is_same(safety.step(tick), recorded.pushed)) result.first_other_push = index;
   }
   return result;
 }

@@ -11,9 +11,7 @@
 namespace feeler {
 namespace {
 
-double grip_damping(double stiffness, double inertia, double ratio) noexcept {
-  return 2 * ratio * std::sqrt(stiffness * inertia);
-}
+double grip_damping(double stiffness, double inertia, double ratio) noexcept { return 2 * ratio * std::sqrt(stiffness * inertia); }
 
 /// Semi-implicit Euler of m a = −k x − c v is stable just when k h²/m < 4 − 2 c h/m (Jury's criterion).
 bool is_stable(double inertia, double stiffness, double damping, double step) noexcept {
@@ -40,8 +38,12 @@ void rub(Vector3<double>& velocity, double loss) noexcept {
 }  // namespace
 
 SimulatedHand::SimulatedHand(DevicePath path, const Handle& handle, const Grip& grip, double period, int substeps)
-    : path_(std::move(path)), handle_(handle), grip_(grip),
-      tremor_(grip.tremor, grip.rotational_tremor, grip.seed), period_(period), substeps_(substeps) {
+    : path_(std::move(path)),
+      handle_(handle),
+      grip_(grip),
+      tremor_(grip.tremor, grip.rotational_tremor, grip.seed),
+      period_(period),
+      substeps_(substeps) {
   require(bool(path_), "simulated hand: the path is empty; give a callable from seconds to a pose");
   require(handle.mass > 0 && handle.inertia > 0, "simulated hand: the handle needs a positive mass and inertia");
   require(handle.damping >= 0 && handle.rotational_damping >= 0, "simulated hand: a negative damping of the handle drives it");
@@ -51,10 +53,8 @@ SimulatedHand::SimulatedHand(DevicePath path, const Handle& handle, const Grip& 
   require(period > 0 && std::isfinite(period) && substeps > 0, "simulated hand: the period and its substeps must be positive");
   const double step = period / substeps;
   const double linear = grip_damping(grip.stiffness, handle.mass, grip.damping_ratio) + handle.damping;
-  const double angular =
-      grip_damping(grip.rotational_stiffness, handle.inertia, grip.damping_ratio) + handle.rotational_damping;
-  require(is_stable(handle.mass, grip.stiffness, linear, step) &&
-              is_stable(handle.inertia, grip.rotational_stiffness, angular, step),
+  const double angular = grip_damping(grip.rotational_stiffness, handle.inertia, grip.damping_ratio) + handle.rotational_damping;
+  require(is_stable(handle.mass, grip.stiffness, linear, step) && is_stable(handle.inertia, grip.rotational_stiffness, angular, step),
           "simulated hand: the grip is too stiff or too damped to integrate at this step; take more substeps a tick");
   target_ = target(0);
   pose_ = target_;
@@ -89,10 +89,9 @@ double SimulatedHand::time() const noexcept { return double(ticks_) * period_; }
     const auto target_velocity = motion_between(base_from_target, next_target) * (1 / step);
     base_from_target = next_target;
 
-    const Vector3<double> force = grip_.stiffness * pull.linear + damper * (target_velocity.linear - velocity) -
-                                  handle_.damping * velocity + pushed_force;
-    const Vector3<double> torque = grip_.rotational_stiffness * pull.angular +
-                                   angular_damper * (target_velocity.angular - spin) -
+    const Vector3<double> force =
+        grip_.stiffness * pull.linear + damper * (target_velocity.linear - velocity) - handle_.damping * velocity + pushed_force;
+    const Vector3<double> torque = grip_.rotational_stiffness * pull.angular + angular_damper * (target_velocity.angular - spin) -
                                    handle_.rotational_damping * spin + pushed_torque;
     velocity += force * (step / handle_.mass);
     spin += torque * (step / handle_.inertia);

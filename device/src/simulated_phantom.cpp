@@ -22,9 +22,7 @@ Handle handle_of(const SimulatedPhantomSettings& settings) noexcept {
 }  // namespace
 
 SimulatedPhantom::SimulatedPhantom(DevicePath path, const SimulatedPhantomSettings& settings)
-    : settings_(settings),
-      at_start_(std::move(path), handle_of(settings), settings.grip, settings.period, settings.substeps),
-      hand_(at_start_) {}
+    : settings_(settings), at_start_(std::move(path), handle_of(settings), settings.grip, settings.period, settings.substeps), hand_(at_start_) {}
 
 OpenResult SimulatedPhantom::open() {
   if (is_open_) return {};

@@ -12,8 +12,7 @@ class SingleCaller {
   /// Taken where true, until it is destroyed.
   class Turn {
    public:
-    explicit Turn(std::atomic_flag& is_taken) noexcept
-        : is_taken_(is_taken.test_and_set(std::memory_order_acquire) ? nullptr : &is_taken) {}
+    explicit Turn(std::atomic_flag& is_taken) noexcept : is_taken_(is_taken.test_and_set(std::memory_order_acquire) ? nullptr : &is_taken) {}
     ~Turn() {
       if (is_taken_ != nullptr) is_taken_->clear(std::memory_order_release);
     }

@@ -10,8 +10,7 @@ double quantised_stiffness(double friction, double resolution) noexcept {
 }
 
 StiffnessLimits stiffness_limits_of(const DeviceSpecification& device, double period) noexcept {
-  return {passive_stiffness(device.damping, period),
-          quantised_stiffness(device.friction, device.position_resolution),
+  return {passive_stiffness(device.damping, period), quantised_stiffness(device.friction, device.position_resolution),
           device.pushes_torque() ? passive_stiffness(device.rotational_damping, period) : 0};
 }
 

@@ -82,8 +82,7 @@ struct Library {
              file.find("virtSetForce", set_force),
          }) {
       if (missing != nullptr) {
-        return "Virtuose: " + file.path() + " has no function " + missing +
-               ": install VirtuoseAPI 3.90 or later, or point to its library.";
+        return "Virtuose: " + file.path() + " has no function " + missing + ": install VirtuoseAPI 3.90 or later, or point to its library.";
       }
     }
     return {};
@@ -120,8 +119,7 @@ class VirtuoseDriver final : public DirectDriver {
     step("the indexing mode", [&] { return library_.set_indexing_mode(context_, no_indexing); });
     step("the force factor", [&] { return library_.set_force_factor(context_, 1); });
     step("the speed factor", [&] { return library_.set_speed_factor(context_, 1); });
-    step("the time step",
-         [&] { return library_.set_time_step(context_, static_cast<float>(settings_.period)); });
+    step("the time step", [&] { return library_.set_time_step(context_, static_cast<float>(settings_.period)); });
     step("the base frame", [&] { return library_.set_base_frame(context_, identity); });
     step("the observation frame", [&] { return library_.set_observation_frame(context_, identity); });
     step("impedance mode", [&] { return library_.set_command_type(context_, impedance); });
@@ -132,12 +130,10 @@ class VirtuoseDriver final : public DirectDriver {
     step("a force of zero", [&] { return push({}).is_taken ? 0 : 1; });
     step("power", [&] { return library_.set_power_on(context_, 1); });
     if (refused != nullptr) {
-      return "Virtuose: the controller refuses " + std::string(refused) + " (" + error() +
-             "): release its emergency stop and start it again.";
+      return "Virtuose: the controller refuses " + std::string(refused) + " (" + error() + "): release its emergency stop and start it again.";
     }
     measure_ticks();
-    if (const char* const why = take_pose(state))
-      return "Virtuose: the controller gives no pose (" + error() + "): " + std::string(why);
+    if (const char* const why = take_pose(state)) return "Virtuose: the controller gives no pose (" + error() + "): " + std::string(why);
     return {};
   }
 
@@ -175,8 +171,7 @@ class VirtuoseDriver final : public DirectDriver {
     const double q[4] = {double(pose[6]), double(pose[3]), double(pose[4]), double(pose[5])};
     const double length = std::hypot(std::hypot(q[0], q[1]), std::hypot(q[2], q[3]));
     const bool is_position = std::isfinite(pose[0]) && std::isfinite(pose[1]) && std::isfinite(pose[2]);
-    if (!is_position || !(std::abs(length - 1) < 0.1))
-      return "The controller reports a pose that is none: calibrate the device as its manual says.";
+    if (!is_position || !(std::abs(length - 1) < 0.1)) return "The controller reports a pose that is none: calibrate the device as its manual says.";
     const double axis[3] = {q[1] / length, q[2] / length, q[3] / length};
     double vector[3];
     maker_frame::to_ours(pose, state.pose.position);
@@ -186,8 +181,7 @@ class VirtuoseDriver final : public DirectDriver {
     state.buttons = 0;
     for (int button = 0; button < buttons; ++button) {
       int is_pressed = 0;
-      if (library_.get_button(context_, button, &is_pressed) == 0 && is_pressed != 0)
-        state.buttons |= 1u << button;
+      if (library_.get_button(context_, button, &is_pressed) == 0 && is_pressed != 0) state.buttons |= 1u << button;
     }
     state.motor_temperature = (alarm_ & overheated) != 0 ? 1 : 0;
     const bool is_old = ticks_per_second_ > 0 && age > 2 * settings_.period * ticks_per_second_;
@@ -200,9 +194,8 @@ class VirtuoseDriver final : public DirectDriver {
     int is_chain_closed = 0;  // of the emergency stop: 1 lets the device run
     int is_powered = 0;
     int is_held = 0;
-    if (library_.get_emergency_stop(context_, &is_chain_closed) != 0 ||
-        library_.get_power_on(context_, &is_powered) != 0 || library_.get_dead_man(context_, &is_held) != 0 ||
-        library_.get_alarm(context_, &alarm_) != 0)
+    if (library_.get_emergency_stop(context_, &is_chain_closed) != 0 || library_.get_power_on(context_, &is_powered) != 0 ||
+        library_.get_dead_man(context_, &is_held) != 0 || library_.get_alarm(context_, &alarm_) != 0)
       return false;
     hindrance_ = is_chain_closed == 0 ? "The emergency stop of the device is pressed, or not plugged in: release it."
                  : is_powered == 0    ? "The power of the motors is off: switch it on at the controller."

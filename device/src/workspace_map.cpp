@@ -14,8 +14,7 @@ using quaternion::multiply;
 using quaternion::rotate;
 
 WorkspaceMap::WorkspaceMap(const WorkspaceSettings& settings) : settings_(settings) {
-  if (!(settings.scale > 0 && std::isfinite(settings.scale)))
-    refuse("workspace map: the scale must be positive and finite");
+  if (!(settings.scale > 0 && std::isfinite(settings.scale))) refuse("workspace map: the scale must be positive and finite");
   const double* q = settings.scene_from_device;
   if (!(std::abs(q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3] - 1) <= 2e-6)) {
     refuse("workspace map: the rotation must be a unit quaternion w, x, y, z");

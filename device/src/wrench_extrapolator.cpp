@@ -14,10 +14,8 @@ using Axes = std::array<double, 6>;  // linear, then angular
 
 /// Flattened for the reason given in simulated_hand.cpp.
 [[gnu::flatten]] Axes motion_of(const DevicePose& from, const DevicePose& to) noexcept {
-  const auto twist = motion_between(from_device<Pose<double>>(from).normalized(),
-                                    from_device<Pose<double>>(to).normalized());
-  return {twist.linear[0],  twist.linear[1],  twist.linear[2],
-          twist.angular[0], twist.angular[1], twist.angular[2]};
+  const auto twist = motion_between(from_device<Pose<double>>(from).normalized(), from_device<Pose<double>>(to).normalized());
+  return {twist.linear[0], twist.linear[1], twist.linear[2], twist.angular[0], twist.angular[1], twist.angular[2]};
 }
 
 void shorten(double* vector, double longest) noexcept {
@@ -40,8 +38,7 @@ void push_only(const double (&rendered)[3], double (&vector)[3]) noexcept {
 
 }  // namespace
 
-DeviceWrench extrapolated(const WrenchModel& model, const DevicePose& pose,
-                          const ExtrapolationLimits& limits) noexcept {
+DeviceWrench extrapolated(const WrenchModel& model, const DevicePose& pose, const ExtrapolationLimits& limits) noexcept {
   Axes motion = motion_of(model.pose, pose);
   shorten(motion.data(), limits.distance);
   shorten(motion.data() + 3, limits.angle);

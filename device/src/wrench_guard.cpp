@@ -10,7 +10,8 @@ namespace feeler {
 namespace {
 
 double usable(double rate) {
-  if (!(rate >= 25 && rate <= 10'000)) refuse("wrench guard: the rate of the loop must be from 25 to 10000 Hz; a slower one needs a servo loop beside it");
+  if (!(rate >= 25 && rate <= 10'000))
+    refuse("wrench guard: the rate of the loop must be from 25 to 10000 Hz; a slower one needs a servo loop beside it");
   return rate;
 }
 

@@ -7,9 +7,7 @@
 namespace feeler {
 namespace {
 
-bool is_finite(const double (&v)[3]) noexcept {
-  return std::isfinite(v[0]) && std::isfinite(v[1]) && std::isfinite(v[2]);
-}
+bool is_finite(const double (&v)[3]) noexcept { return std::isfinite(v[0]) && std::isfinite(v[1]) && std::isfinite(v[2]); }
 
 void shorten(double (&v)[3], double maximum) noexcept {
   if (!is_finite(v)) {
@@ -34,8 +32,6 @@ DeviceWrench limited(const DeviceWrench& wrench, double maximum_force, double ma
   return result;
 }
 
-bool is_finite(const DeviceWrench& wrench) noexcept {
-  return is_finite(wrench.force) && is_finite(wrench.torque);
-}
+bool is_finite(const DeviceWrench& wrench) noexcept { return is_finite(wrench.force) && is_finite(wrench.torque); }
 
 }  // namespace feeler

@@ -45,7 +45,9 @@ int main() {
   }
   const auto& tick = renderer.tick();
   std::printf("hand (%.2f, %.2f, %.2f) mm\n", 1e3 * hand.translation.x(), 1e3 * hand.translation.y(), 1e3 * hand.translation.z());
-  for (const auto& contact : tick.contacts) std::printf("piece %d pushes with %.2f N along (%.1f, %.1f, %.1f)\n", contact.piece, contact.force, contact.normal_world.x(), contact.normal_world.y(), contact.normal_world.z());
+  for (const auto& contact : tick.contacts)
+    std::printf("piece %d pushes with %.2f N along (%.1f, %.1f, %.1f)\n", contact.piece, contact.force, contact.normal_world.x(),
+                contact.normal_world.y(), contact.normal_world.z());
   const Vector at = 1e3 * tick.graphic_pose.translation;
   std::printf("the fork is at (%.2f, %.2f, %.2f) mm\n", at.x(), at.y(), at.z());
 }  // prints: the fork is at (0.05, 24.00, 0.00) mm

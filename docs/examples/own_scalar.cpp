@@ -102,6 +102,7 @@ int main() {
   constexpr int ticks = 1500;
   int converged = 0;
   for (int i = 1; i <= ticks; ++i) converged += renderer.update(hand(i).cast<Counted>()).converged() ? 1 : 0;
-  std::printf("a tick: %ld sums, %ld products, %ld quotients, %ld functions\n", Counted::sums / ticks, Counted::products / ticks, Counted::quotients / ticks, Counted::functions / ticks);
+  std::printf("a tick: %ld sums, %ld products, %ld quotients, %ld functions\n", Counted::sums / ticks, Counted::products / ticks,
+              Counted::quotients / ticks, Counted::functions / ticks);
   std::printf("converged in %d %%\n", 100 * converged / ticks);
 }  // prints: converged in 100 %

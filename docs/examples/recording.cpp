@@ -28,7 +28,8 @@ int main() {
   const feeler::Sphere<double> ball(0.01);
   const feeler::Pose<double> start{.translation = {0, 0.03, 0}};
 
-  feeler::SimulatedPhantom device([](double time) { return feeler::DevicePose{{0.02 * std::sin(9 * time), std::max(0.03 - 0.1 * time, 0.006), 0}, {1, 0, 0, 0}}; });
+  feeler::SimulatedPhantom device(
+      [](double time) { return feeler::DevicePose{{0.02 * std::sin(9 * time), std::max(0.03 - 0.1 * time, 0.006), 0}, {1, 0, 0, 0}}; });
   if (const auto opened = device.open(); !opened) return std::cerr << opened.problem << "\n", 1;
   Renderer renderer(table, ball);
   renderer.reset(start);

@@ -39,17 +39,11 @@ Mesh mesh_of(std::initializer_list<Vector> points, std::initializer_list<std::ar
 }
 
 /// The floor z = 0 within 1 m, in two triangles that meet in the line x = y.
-Mesh floor() {
-  return mesh_of({{-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}}, {{0, 1, 2}, {0, 2, 3}});
-}
+Mesh floor() { return mesh_of({{-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}}, {{0, 1, 2}, {0, 2, 3}}); }
 /// A roof whose ridge is the y axis; slopes of 45° and no bottom.
-Mesh roof() {
-  return mesh_of({{0, -1, 0}, {0, 1, 0}, {1, 0, -1}, {-1, 0, -1}}, {{0, 2, 1}, {0, 1, 3}});
-}
+Mesh roof() { return mesh_of({{0, -1, 0}, {0, 1, 0}, {1, 0, -1}, {-1, 0, -1}}, {{0, 2, 1}, {0, 1, 3}}); }
 /// A spike that points up, with its tip at the origin.
-Mesh spike() {
-  return mesh_of({{0, 0, 0}, {1, -1, -3}, {1, 1, -3}, {-1, 0, -3}}, {{0, 1, 2}, {0, 2, 3}, {0, 3, 1}});
-}
+Mesh spike() { return mesh_of({{0, 0, 0}, {1, -1, -3}, {1, 1, -3}, {-1, 0, -3}}, {{0, 1, 2}, {0, 2, 3}, {0, 3, 1}}); }
 
 struct Found {
   bool has_rows = false;
@@ -66,12 +60,11 @@ struct Found {
 };
 
 template <class Tool>
-Found find(const Tool& tool, const Mesh& mesh, int triangle, const feeler::Pose<double>& pose,
-           bool keep_ghost = false, const Vector& reference = Vector::Zero(), bool assumes_valleys = false) {
+Found find(const Tool& tool, const Mesh& mesh, int triangle, const feeler::Pose<double>& pose, bool keep_ghost = false,
+           const Vector& reference = Vector::Zero(), bool assumes_valleys = false) {
   const Eigen::Matrix3d axes = pose.rotation.toRotationMatrix();
   // pose.translation is where the reference point is.
-  const Eigen::Matrix3d corners =
-      (axes.transpose() * (mesh.corners(triangle).colwise() - pose.translation)).colwise() + reference;
+  const Eigen::Matrix3d corners = (axes.transpose() * (mesh.corners(triangle).colwise() - pose.translation)).colwise() + reference;
   const auto closest = feeler::separation(tool, corners, {}, 1e-8);
   const feeler::FeatureIncidence incidence = feeler::incidence_of(tool);
   feeler::VertexSet near(tool.vertex_count());
@@ -84,13 +77,10 @@ Found find(const Tool& tool, const Mesh& mesh, int triangle, const feeler::Pose<
   return found;
 }
 
-feeler::Pose<double> at(const Vector& translation,
-                        const Eigen::Quaterniond& rotation = Eigen::Quaterniond::Identity()) {
+feeler::Pose<double> at(const Vector& translation, const Eigen::Quaterniond& rotation = Eigen::Quaterniond::Identity()) {
   return {translation, rotation};
 }
-Eigen::Quaterniond turn(double angle, const Vector& axis) {
-  return Eigen::Quaterniond(Eigen::AngleAxisd(angle, axis.normalized()));
-}
+Eigen::Quaterniond turn(double angle, const Vector& axis) { return Eigen::Quaterniond(Eigen::AngleAxisd(angle, axis.normalized())); }
 
 }  // namespace
 
@@ -160,8 +150,7 @@ BOOST_AUTO_TEST_CASE(arms_are_from_the_reference_point_and_normals_in_world_axes
     // The whole scene is turned and moved.
     const Eigen::Quaterniond q = random_rotation(bits);
     const Vector p = random_vector(bits);
-    const Mesh mesh =
-        mesh_of({p + q * Vector(-1, -1, 0), p + q * Vector(1, -1, 0), p + q * Vector(1, 1, 0)}, {{0, 1, 2}});
+    const Mesh mesh = mesh_of({p + q * Vector(-1, -1, 0), p + q * Vector(1, -1, 0), p + q * Vector(1, 1, 0)}, {{0, 1, 2}});
     const Vector reference = 0.1 * random_vector(bits);
     const Vector centre = p + q * Vector(0.5, -0.3, 0.01 + 1e-6);
     const Found found = find(box, mesh, 0, at(centre + q * reference, q), false, reference);
@@ -199,7 +188,8 @@ BOOST_AUTO_TEST_CASE(a_round_end_has_a_corner_in_its_face_however_many_facets_it
   for (const int facets : {8, 16, 17, 24, 64, 128}) {
     const auto tool = feeler::cylinder<double>(0.0264, 2 * height, facets);
     for (const double gap : {1e-6, 1e-7, 8e-9, 0.0}) {
-      const Mesh mesh = mesh_of({{0.004, -0.001, -height - gap}, {-0.016, 0.032, -height - 1e-3}, {0.043, 0.002, -height - gap - 1.4e-7}}, {{0, 1, 2}});
+      const Mesh mesh =
+          mesh_of({{0.004, -0.001, -height - gap}, {-0.016, 0.032, -height - 1e-3}, {0.043, 0.002, -height - gap - 1.4e-7}}, {{0, 1, 2}});
       const Found found = find(tool, mesh, 0, {});
       BOOST_TEST_CONTEXT("facets " << facets << " gap " << gap) {
         BOOST_TEST(std::abs(found.distance - gap) < 1e-12);
@@ -219,7 +209,8 @@ BOOST_AUTO_TEST_CASE(a_round_end_flat_on_a_triangle_stands_on_rows_all_around) {
   for (const int facets : {12, 16, 17, 32, 100, 128}) {
     const auto tool = feeler::cylinder<double>(radius, 0.02, facets);
     for (const double tilt : {0.0, 1e-6, 1e-4}) {
-      const Found found = find(tool, mesh, 0, at(Vector(0.01, -0.02, 0.01 + 1e-6 + radius * tilt), turn(tilt, Vector(std::cos(1.0), std::sin(1.0), 0))));
+      const Found found =
+          find(tool, mesh, 0, at(Vector(0.01, -0.02, 0.01 + 1e-6 + radius * tilt), turn(tilt, Vector(std::cos(1.0), std::sin(1.0), 0))));
       BOOST_TEST_CONTEXT("facets " << facets << " tilt " << tilt) {
         BOOST_TEST(found.rows.size() >= std::min(facets, 12));
         BOOST_TEST(found.count(FeaturePair::vertex_face) == found.rows.size());
@@ -249,8 +240,7 @@ BOOST_AUTO_TEST_CASE(edges_that_cross_give_one_row_along_their_common_normal) {
   for (const double gap : {1e-9, 1e-6, 1e-5}) {
     for (const double angle : {0.0, 0.2, -0.7}) {
       const double height = std::sqrt(2.0) * h + gap;
-      const auto pose = at(Vector(0.001, 0.002, height),
-                           turn(angle, Vector::UnitZ()) * turn(std::acos(-1.0) / 4, Vector::UnitX()));
+      const auto pose = at(Vector(0.001, 0.002, height), turn(angle, Vector::UnitZ()) * turn(std::acos(-1.0) / 4, Vector::UnitX()));
       for (int triangle = 0; triangle < 2; ++triangle) {
         const Found found = find(box, mesh, triangle, pose);
         BOOST_TEST(found.has_rows);

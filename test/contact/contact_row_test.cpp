@@ -33,10 +33,8 @@ Contact vertex_face(std::mt19937& bits) {
   row.normal = random_direction(bits);
   row.arm = random_vector(bits);
   row.gap = 1e-3 * unit(bits);
-  const Wide n = row.normal.cast<Real>(), vertex = row.arm.cast<Real>(),
-             on_plane = vertex - Real(row.gap) * n;
-  return {row,
-          [=](const Wide6& d) { return n.dot(Wide(d.head<3>()) + turned(d.tail<3>(), vertex) - on_plane); }};
+  const Wide n = row.normal.cast<Real>(), vertex = row.arm.cast<Real>(), on_plane = vertex - Real(row.gap) * n;
+  return {row, [=](const Wide6& d) { return n.dot(Wide(d.head<3>()) + turned(d.tail<3>(), vertex) - on_plane); }};
 }
 
 Contact face_vertex(std::mt19937& bits) {
@@ -46,9 +44,7 @@ Contact face_vertex(std::mt19937& bits) {
   row.arm = random_vector(bits);        // the object's vertex
   row.gap = 1e-3 * unit(bits);
   const Wide n = row.normal.cast<Real>(), vertex = row.arm.cast<Real>(), on_face = vertex + Real(row.gap) * n;
-  return {row, [=](const Wide6& d) {
-            return turned(d.tail<3>(), n).dot(Wide(d.head<3>()) + turned(d.tail<3>(), on_face) - vertex);
-          }};
+  return {row, [=](const Wide6& d) { return turned(d.tail<3>(), n).dot(Wide(d.head<3>()) + turned(d.tail<3>(), on_face) - vertex); }};
 }
 
 /// @param gap  the row's curvature is that at contact: it leaves out a term of gap / sine²
@@ -63,8 +59,7 @@ Contact edge_edge(std::mt19937& bits, double gap) {
   row.arm = random_vector(bits);
   row.gap = gap;
   const Wide u = row.object_edge.cast<Real>(), v = row.tool_edge.cast<Real>(), on_tool = row.arm.cast<Real>();
-  const Wide n =
-      v.cross(u).normalized() * (row.normal.dot(row.tool_edge.cross(row.object_edge)) > 0 ? 1 : -1);
+  const Wide n = v.cross(u).normalized() * (row.normal.dot(row.tool_edge.cross(row.object_edge)) > 0 ? 1 : -1);
   const Wide on_object = on_tool - Real(gap) * n;
   return {row, [=](const Wide6& d) {
             Wide normal = turned(d.tail<3>(), v).cross(u).normalized();
@@ -80,9 +75,7 @@ void check_gradient(const Contact& contact, Real tolerance, Real rounding = 1e-1
   for (int i = 0; i < 6; ++i) BOOST_TEST(std::abs(slopes[i] - Real(gradient[i])) < tolerance);
 }
 
-Real curvature_error(const Contact& contact) {
-  return largest_difference(curvature_by_differences(contact.separation), curvature_of(contact.row));
-}
+Real curvature_error(const Contact& contact) { return largest_difference(curvature_by_differences(contact.separation), curvature_of(contact.row)); }
 
 }  // namespace
 
@@ -108,8 +101,7 @@ BOOST_AUTO_TEST_CASE(gradient_and_curvature_of_a_face_on_a_vertex_are_derivative
   }
 }
 
-BOOST_AUTO_TEST_CASE(
-    gradient_and_curvature_of_crossing_edges_are_derivatives_of_the_distance_of_their_lines) {
+BOOST_AUTO_TEST_CASE(gradient_and_curvature_of_crossing_edges_are_derivatives_of_the_distance_of_their_lines) {
   constexpr unsigned seed = 3;
   BOOST_TEST_MESSAGE("seed " << seed);
   std::mt19937 bits(seed);

@@ -16,7 +16,11 @@ using Row = ContactRow<double>;
 namespace {
 FixedVector<Row, 24> outer_of(const std::vector<Row>& rows, double rise) {
   FixedVector<Row, 24> taken;
-  take_outer_rows<Row>([&](const auto& visit) { for (const Row& row : rows) visit(row); }, rise, taken);
+  take_outer_rows<Row>(
+      [&](const auto& visit) {
+        for (const Row& row : rows) visit(row);
+      },
+      rise, taken);
   return taken;
 }
 std::vector<Row> ring(int count, double radius) {

@@ -75,8 +75,7 @@ Pair random_pair(std::mt19937& bits, bool has_tool_edge, bool has_object_edge) {
     pair = {wide(random_vector(bits)), Wide::Zero(), wide(random_vector(bits)), Wide::Zero(), 0.3L};
     if (has_tool_edge) pair.tool_edge = wide(random_direction(bits)).normalized();
     if (has_object_edge) pair.object_edge = wide(random_direction(bits)).normalized();
-  } while (pair.separation(Wide6::Zero()) < -0.1L ||
-           (has_tool_edge && has_object_edge && pair.tool_edge.cross(pair.object_edge).norm() < 0.3L));
+  } while (pair.separation(Wide6::Zero()) < -0.1L || (has_tool_edge && has_object_edge && pair.tool_edge.cross(pair.object_edge).norm() < 0.3L));
   return pair;
 }
 
@@ -165,7 +164,8 @@ BOOST_AUTO_TEST_CASE(rows_of_a_round_tool_predict_its_separation_to_third_order)
       // Another feature may take over within the step: its curvature is unlike by as much as the radius allows.
       worst = std::max(worst, std::abs(predicted - separation) / size);
     }
-    BOOST_TEST_MESSAGE("vertex or edge " << kinds_seen[0] << ", face " << kinds_seen[1] << ", edges " << kinds_seen[2] << "; worst error per step " << worst);
+    BOOST_TEST_MESSAGE("vertex or edge " << kinds_seen[0] << ", face " << kinds_seen[1] << ", edges " << kinds_seen[2] << "; worst error per step "
+                                         << worst);
     BOOST_TEST(worst <= 1e-7);  // without the curvature of points and lines 5e-5
   };
   check(random_sphere, 500);

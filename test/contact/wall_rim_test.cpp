@@ -73,7 +73,8 @@ BOOST_AUTO_TEST_CASE(the_outermost_points_of_a_face_over_the_rim_are_on_the_tria
       feeler::FixedVector<Vector, 16> loop;
       for (const Vector& corner : in_world) loop.push_back(corner);
       std::set<int> found;
-      feeler::OutermostAtRim<double, double>(sheet.mesh, wall, loop.size(), [&](int k) { return loop[k]; }, Vector((is_below ? -1 : 1) * sheet.axes.col(2)))
+      feeler::OutermostAtRim<double, double>(
+          sheet.mesh, wall, loop.size(), [&](int k) { return loop[k]; }, Vector((is_below ? -1 : 1) * sheet.axes.col(2)))
           .find([](int) { return false; }, [&](int triangle) { found.insert(triangle); });
       // All rim edges of the wall, point by point.
       std::array<double, 8> all, those;
@@ -120,13 +121,17 @@ BOOST_AUTO_TEST_CASE(of_triangles_that_share_a_point_the_known_one_is_preferred)
   const int wall = sheet.mesh.walls().of_triangle(0);
   // Its corner touches the rim where two triangles meet.
   feeler::FixedVector<Vector, 16> loop;
-  for (const Vector& corner : {Vector(0.1, -0.1, 0), Vector(0.4, -0.1, 0), Vector(0.4, 0.1, 0), Vector(0.1, 0.1, 0)}) loop.push_back(sheet.axes * corner);
+  for (const Vector& corner : {Vector(0.1, -0.1, 0), Vector(0.4, -0.1, 0), Vector(0.4, 0.1, 0), Vector(0.1, 0.1, 0)})
+    loop.push_back(sheet.axes * corner);
   std::set<int> any;
-  feeler::OutermostAtRim<double, double>(sheet.mesh, wall, loop.size(), [&](int k) { return loop[k]; }, Vector(sheet.axes.col(2))).find([](int) { return false; }, [&](int t) { any.insert(t); });
+  feeler::OutermostAtRim<double, double>(
+      sheet.mesh, wall, loop.size(), [&](int k) { return loop[k]; }, Vector(sheet.axes.col(2)))
+      .find([](int) { return false; }, [&](int t) { any.insert(t); });
   BOOST_TEST(any.size() == 2U);  // the ends of what is over the rim
   for (const int known : any) {
     std::set<int> found;
-    feeler::OutermostAtRim<double, double>(sheet.mesh, wall, loop.size(), [&](int k) { return loop[k]; }, Vector(sheet.axes.col(2)))
+    feeler::OutermostAtRim<double, double>(
+        sheet.mesh, wall, loop.size(), [&](int k) { return loop[k]; }, Vector(sheet.axes.col(2)))
         .find([&](int t) { return t == known; }, [&](int t) { found.insert(t); });
     BOOST_TEST(found.count(known) == 1U);
   }

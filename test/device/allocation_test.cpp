@@ -24,8 +24,7 @@ BOOST_AUTO_TEST_CASE(a_tick_of_loop_device_and_hand_off_allocates_nothing_and_th
   for (const bool allocates : {false, true}) {
     feeler::SimulatedPhantomSettings phantom_settings;
     phantom_settings.grip.tremor = 1e-4;
-    feeler::SimulatedPhantom phantom(
-        [](double t) { return feeler::DevicePose{{0.01 * std::sin(t), 0, 0}, {1, 0, 0, 0}}; }, phantom_settings);
+    feeler::SimulatedPhantom phantom([](double t) { return feeler::DevicePose{{0.01 * std::sin(t), 0, 0}, {1, 0, 0, 0}}; }, phantom_settings);
     BOOST_REQUIRE(bool(phantom.open()));
     feeler::LatestValue<feeler::DeviceState> latest;
 
@@ -63,8 +62,8 @@ BOOST_AUTO_TEST_CASE(a_tick_of_every_driver_with_passivity_control_safety_and_re
   feeler::OpenHapticsDevice open_haptics(feeler::OpenHapticsSettings{{FEELER_OPEN_HAPTICS_STAND_IN}, ""});
   feeler::ForceDimensionDevice force_dimension(feeler::ForceDimensionSettings{{FEELER_FORCE_DIMENSION_STAND_IN}});
   feeler::VirtuoseDevice virtuose(virtuose_settings);
-  for (feeler::Device* device : {static_cast<feeler::Device*>(&open_haptics), static_cast<feeler::Device*>(&force_dimension),
-                                 static_cast<feeler::Device*>(&virtuose)}) {
+  for (feeler::Device* device :
+       {static_cast<feeler::Device*>(&open_haptics), static_cast<feeler::Device*>(&force_dimension), static_cast<feeler::Device*>(&virtuose)}) {
     BOOST_REQUIRE(bool(device->open()));
     feeler::SessionRecorder recorder(200);
     feeler::ServoSettings settings;
@@ -92,9 +91,7 @@ BOOST_AUTO_TEST_CASE(a_tick_of_every_driver_with_passivity_control_safety_and_re
   }
 }
 #else
-BOOST_AUTO_TEST_CASE(allocations_are_not_counted_with_a_sanitizer) {
-  BOOST_TEST_MESSAGE("skipped: the sanitizer has a malloc of its own");
-}
+BOOST_AUTO_TEST_CASE(allocations_are_not_counted_with_a_sanitizer) { BOOST_TEST_MESSAGE("skipped: the sanitizer has a malloc of its own"); }
 #endif
 
 BOOST_AUTO_TEST_SUITE_END()

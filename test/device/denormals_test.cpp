@@ -41,8 +41,7 @@ double half_of_the_least() {
 std::vector<double> ticks_in_a_cavity() {
   const scenes::Scene scene = scenes::cavity(1e-3);
   const TriangleMesh<double> object(scene.vertices, scene.triangles);
-  HapticRenderer<Box<double>> renderer(object, Box<double>(Vector3<double>::Constant(0.010)),
-                                       scene.settings());
+  HapticRenderer<Box<double>> renderer(object, Box<double>(Vector3<double>::Constant(0.010)), scene.settings());
   BOOST_REQUIRE((renderer.reset(scene.start) == Status::converged));
   std::vector<double> numbers;
   for (int i = 0; i < 2000; ++i) {
@@ -51,11 +50,10 @@ std::vector<double> ticks_in_a_cavity() {
     const Vector3<double> turn(0, 0, 0.2 * std::sin(5 * s));
     const auto& tick = renderer.update({away, exp_rotation<double>(turn)});
     for (int k = 0; k < 3; ++k) {
-      numbers.insert(numbers.end(),
-                     {tick.graphic_pose.translation[k], tick.wrench.force[k], tick.wrench.torque[k]});
+      numbers.insert(numbers.end(), {tick.graphic_pose.translation[k], tick.wrench.force[k], tick.wrench.torque[k]});
     }
-    for (const double q : {tick.graphic_pose.rotation.w(), tick.graphic_pose.rotation.x(),
-                           tick.graphic_pose.rotation.y(), tick.graphic_pose.rotation.z()}) {
+    for (const double q :
+         {tick.graphic_pose.rotation.w(), tick.graphic_pose.rotation.x(), tick.graphic_pose.rotation.y(), tick.graphic_pose.rotation.z()}) {
       numbers.push_back(q);
     }
   }
@@ -75,8 +73,7 @@ BOOST_AUTO_TEST_CASE(flushing_them_would_change_no_bit_of_a_tick) {
   }
   BOOST_REQUIRE(flushed.size() == as_it_is.size());
   std::size_t differences = 0;
-  for (std::size_t i = 0; i < flushed.size(); ++i)
-    differences += std::memcmp(&flushed[i], &as_it_is[i], sizeof(double)) != 0;
+  for (std::size_t i = 0; i < flushed.size(); ++i) differences += std::memcmp(&flushed[i], &as_it_is[i], sizeof(double)) != 0;
   BOOST_TEST(differences == 0u);
 }
 

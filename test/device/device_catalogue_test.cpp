@@ -23,8 +23,7 @@ BOOST_AUTO_TEST_CASE(every_maker_has_a_name_that_leads_back_to_it_and_a_driver) 
     BOOST_REQUIRE(device != nullptr);
     const auto opened = device->open();
     BOOST_TEST(!opened);
-    BOOST_TEST(opened.problem.find("/nowhere/library.so: cannot open shared object file") !=
-               std::string::npos);
+    BOOST_TEST(opened.problem.find("/nowhere/library.so: cannot open shared object file") != std::string::npos);
     BOOST_TEST(opened.problem.find("install") != std::string::npos);
   }
   BOOST_TEST(!feeler::maker_named("falcon"));
@@ -65,14 +64,20 @@ BOOST_AUTO_TEST_CASE(a_choice_reaches_the_driver) {
 BOOST_AUTO_TEST_CASE(a_choice_that_a_maker_does_not_know_is_refused_with_a_sentence) {
   using feeler::DeviceChoice;
   using feeler::Maker;
-  const std::pair<Maker, DeviceChoice> choices[] = {
-      {Maker::haply, {.library = "libHD.so"}},         {Maker::force_dimension, {.address = "localhost:1"}},
-      {Maker::virtuose, {.serial_number = "5"}},       {Maker::open_haptics, {.index = 0}},
-      {Maker::force_dimension, {.serial_number = "A"}}, {Maker::force_dimension, {.serial_number = "99999999999"}},
-      {Maker::haply, {.initialises = true}},           {Maker::open_haptics, {.initialises = true}},
-      {Maker::haply, {.address = "localhost"}},        {Maker::haply, {.address = "localhost:0"}},
-      {Maker::haply, {.address = ":10001"}},           {Maker::haply, {.address = "localhost:70000"}},
-      {Maker::haply, {.period = 0}},                   {Maker::haply, {.period = std::numeric_limits<double>::quiet_NaN()}}};
+  const std::pair<Maker, DeviceChoice> choices[] = {{Maker::haply, {.library = "libHD.so"}},
+                                                    {Maker::force_dimension, {.address = "localhost:1"}},
+                                                    {Maker::virtuose, {.serial_number = "5"}},
+                                                    {Maker::open_haptics, {.index = 0}},
+                                                    {Maker::force_dimension, {.serial_number = "A"}},
+                                                    {Maker::force_dimension, {.serial_number = "99999999999"}},
+                                                    {Maker::haply, {.initialises = true}},
+                                                    {Maker::open_haptics, {.initialises = true}},
+                                                    {Maker::haply, {.address = "localhost"}},
+                                                    {Maker::haply, {.address = "localhost:0"}},
+                                                    {Maker::haply, {.address = ":10001"}},
+                                                    {Maker::haply, {.address = "localhost:70000"}},
+                                                    {Maker::haply, {.period = 0}},
+                                                    {Maker::haply, {.period = std::numeric_limits<double>::quiet_NaN()}}};
   for (const auto& [maker, choice] : choices) {
     const std::string reason = feeler::reason_against(maker, choice);
     BOOST_TEST_CONTEXT(feeler::name_of(maker) << ": " << reason) {
@@ -92,8 +97,7 @@ BOOST_AUTO_TEST_CASE(a_listing_says_what_a_device_can_or_why_there_is_none) {
              "forcedimension: sigma.7, 12 N (3 N for ever), 0.2 N m, 2200 N/m\n");
   BOOST_TEST(to_string(feeler::DeviceListing{feeler::Maker::open_haptics, feeler::touch(), ""}) ==
              "openhaptics: Touch, 3.3 N (0.88 N for ever), force-only, 400 N/m\n");
-  BOOST_TEST(to_string(feeler::DeviceListing{feeler::Maker::virtuose, {}, "No cable."}) ==
-             "virtuose: none. No cable.\n");
+  BOOST_TEST(to_string(feeler::DeviceListing{feeler::Maker::virtuose, {}, "No cable."}) == "virtuose: none. No cable.\n");
 }
 
 BOOST_AUTO_TEST_SUITE_END()

@@ -12,9 +12,8 @@ BOOST_AUTO_TEST_SUITE(device_specification)
 BOOST_AUTO_TEST_CASE(every_preset_has_figures_that_agree_with_each_other) {
   std::set<std::string> names;
   for (const auto& device :
-       {feeler::phantom_premium_3_0_6dof(), feeler::phantom_premium_1_5_6dof(),
-        feeler::phantom_premium_1_5_high_force_6dof(), feeler::touch(), feeler::touch_x(), feeler::omega_3(),
-        feeler::omega_6(), feeler::omega_7(), feeler::sigma_7(), feeler::lambda_7(), feeler::delta_3(),
+       {feeler::phantom_premium_3_0_6dof(), feeler::phantom_premium_1_5_6dof(), feeler::phantom_premium_1_5_high_force_6dof(), feeler::touch(),
+        feeler::touch_x(), feeler::omega_3(), feeler::omega_6(), feeler::omega_7(), feeler::sigma_7(), feeler::lambda_7(), feeler::delta_3(),
         feeler::falcon(), feeler::virtuose_6d(), feeler::virtuose_6d_desktop(), feeler::inverse3()}) {
     BOOST_TEST_CONTEXT(device.name) {
       BOOST_TEST(names.insert(device.name).second);
@@ -28,8 +27,7 @@ BOOST_AUTO_TEST_CASE(every_preset_has_figures_that_agree_with_each_other) {
       BOOST_TEST((device.maximum_torque > 0) == device.pushes_torque());
       BOOST_TEST((device.continuous_torque > 0) == device.pushes_torque());
       BOOST_TEST((device.rotational_stiffness > 0) == device.pushes_torque());
-      for (std::size_t axis = 0; axis < 6; ++axis)
-        BOOST_TEST((device.is_sensed[axis] || !device.is_pushed[axis]));
+      for (std::size_t axis = 0; axis < 6; ++axis) BOOST_TEST((device.is_sensed[axis] || !device.is_pushed[axis]));
       BOOST_TEST(*std::min_element(device.workspace.begin(), device.workspace.end()) > 0);
       BOOST_TEST(device.position_resolution > 0);
       BOOST_TEST(device.apparent_mass > 0);

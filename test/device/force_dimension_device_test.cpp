@@ -21,22 +21,16 @@ using feeler::ForceDimensionDevice;
 
 namespace {
 
-feeler_test::ForceDimensionStandIn& fresh() {
-  return feeler_test::stand_in<feeler_test::ForceDimensionStandIn>(FEELER_FORCE_DIMENSION_STAND_IN);
-}
+feeler_test::ForceDimensionStandIn& fresh() { return feeler_test::stand_in<feeler_test::ForceDimensionStandIn>(FEELER_FORCE_DIMENSION_STAND_IN); }
 
-feeler::ForceDimensionSettings settings() {
-  return {{FEELER_FORCE_DIMENSION_STAND_IN}};
-}
+feeler::ForceDimensionSettings settings() { return {{FEELER_FORCE_DIMENSION_STAND_IN}}; }
 
 bool is_silent(const feeler_test::ForceDimensionStandIn& dhd) {
   const auto is_zero = [](double component) { return component == 0; };
   return std::all_of(dhd.force, dhd.force + 3, is_zero) && std::all_of(dhd.torque, dhd.torque + 3, is_zero);
 }
 
-bool says(const std::string& sentence, const char* words) {
-  return sentence.find(words) != std::string::npos;
-}
+bool says(const std::string& sentence, const char* words) { return sentence.find(words) != std::string::npos; }
 
 constexpr DeviceWrench some_push{{1, 2, 3}, {0.01, 0.02, 0.03}};
 
@@ -84,11 +78,10 @@ BOOST_AUTO_TEST_CASE(the_type_of_the_system_chooses_the_preset_and_what_has_moto
     bool senses_rotation;
     bool pushes_torque;
   };
-  for (const Model& model : {Model{33, "omega.3", false, false}, Model{34, "omega.6", true, false},
-                             Model{35, "omega.7", true, false}, Model{60, "Falcon", false, false},
-                             Model{63, "delta.3", false, false}, Model{104, "sigma.7", true, true},
-                             Model{109, "lambda.7", true, true}, Model{131, "lambda.6", true, false},
-                             Model{999, "Force Dimension device of type 999", true, false}}) {
+  for (const Model& model :
+       {Model{33, "omega.3", false, false}, Model{34, "omega.6", true, false}, Model{35, "omega.7", true, false}, Model{60, "Falcon", false, false},
+        Model{63, "delta.3", false, false}, Model{104, "sigma.7", true, true}, Model{109, "lambda.7", true, true},
+        Model{131, "lambda.6", true, false}, Model{999, "Force Dimension device of type 999", true, false}}) {
     auto& dhd = fresh();
     dhd.system_type = model.type;
     ForceDimensionDevice device(settings());
@@ -132,8 +125,7 @@ BOOST_AUTO_TEST_CASE(what_is_missing_is_named_with_the_remedy) {
   BOOST_TEST(says(no_library.problem, "/nowhere/libdhd.so: cannot open shared object file"));
   BOOST_TEST(says(no_library.problem, "install the SDK"));
 
-  ForceDimensionDevice older(
-      feeler::ForceDimensionSettings{{FEELER_FORCE_DIMENSION_STAND_IN_OF_AN_OLDER_VERSION}});
+  ForceDimensionDevice older(feeler::ForceDimensionSettings{{FEELER_FORCE_DIMENSION_STAND_IN_OF_AN_OLDER_VERSION}});
   BOOST_TEST(says(older.open().problem, "has no function dhdErrorGetLastStr"));
 }
 
@@ -146,10 +138,8 @@ BOOST_AUTO_TEST_CASE(a_device_that_cannot_start_is_refused_with_a_sentence_and_l
       {[](auto& dhd) { dhd.device_count = 0; }, "udev rule"},
       {[](auto& dhd) { dhd.refuses_to_open = true; }, "device not ready): close the other program"},
       {[](auto& dhd) { dhd.needs_calibration = true; }, "not calibrated: put its handle"},
-      {[](auto& dhd) { dhd.needs_calibration = dhd.is_unknown_to_drd = true; },
-       "not calibrated: put its handle"},
-      {[](auto& dhd) { dhd.needs_calibration = dhd.only_drd_knows = true; },
-       "not calibrated: put its handle"},
+      {[](auto& dhd) { dhd.needs_calibration = dhd.is_unknown_to_drd = true; }, "not calibrated: put its handle"},
+      {[](auto& dhd) { dhd.needs_calibration = dhd.only_drd_knows = true; }, "not calibrated: put its handle"},
       {[](auto& dhd) { dhd.has_power = false; }, "no power: switch it on"},
       {[](auto& dhd) { dhd.has_error = true; }, "reports an error: switch it off and on"},
       {[](auto& dhd) { dhd.refuses_force = true; }, "refuses to push"},
@@ -187,8 +177,7 @@ BOOST_AUTO_TEST_CASE(a_device_that_is_not_calibrated_initialises_itself_only_whe
   }
   dhd.reset();
   dhd.needs_calibration = dhd.fails_to_initialise = true;
-  BOOST_TEST(
-      says(ForceDimensionDevice(moving).open().problem, "cannot initialise itself (device not ready)"));
+  BOOST_TEST(says(ForceDimensionDevice(moving).open().problem, "cannot initialise itself (device not ready)"));
   dhd.reset();
   dhd.needs_calibration = dhd.is_unknown_to_drd = true;
   BOOST_TEST(says(ForceDimensionDevice(moving).open().problem, "use libdrd"));
@@ -202,8 +191,7 @@ BOOST_AUTO_TEST_CASE(one_of_several_devices_is_chosen_by_its_serial_number_or_it
     std::optional<int> index;
     int id;
   };
-  for (const Choice& choice :
-       {Choice{{}, {}, 3}, Choice{1004, {}, 4}, Choice{{}, 4, 4}, Choice{1004, 3, 4}}) {
+  for (const Choice& choice : {Choice{{}, {}, 3}, Choice{1004, {}, 4}, Choice{{}, 4, 4}, Choice{1004, 3, 4}}) {
     auto& dhd = fresh();
     dhd.device_count = 2;
     auto chosen = settings();
@@ -223,8 +211,7 @@ BOOST_AUTO_TEST_CASE(one_of_several_devices_is_chosen_by_its_serial_number_or_it
   absent = settings();
   for (const int index : {7, -1, 256 + 3}) {
     absent.index = index;
-    BOOST_TEST(
-        says(ForceDimensionDevice(absent).open().problem, ("the index " + std::to_string(index)).c_str()));
+    BOOST_TEST(says(ForceDimensionDevice(absent).open().problem, ("the index " + std::to_string(index)).c_str()));
   }
 }
 

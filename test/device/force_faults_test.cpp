@@ -72,8 +72,7 @@ Outcome run(Maker (*make)(World&), const Fault& fault) {
   outcome.silent_at = int(first);
   outcome.half_milliseconds_to_silence = int(first) - fault_at;
   outcome.stayed_silent = true;
-  for (std::size_t i = first; i < silent.size(); ++i)
-    outcome.stayed_silent = outcome.stayed_silent && silent[i];
+  for (std::size_t i = first; i < silent.size(); ++i) outcome.stayed_silent = outcome.stayed_silent && silent[i];
   maker.device->close();
   return outcome;
 }
@@ -83,14 +82,11 @@ void check_silenced(const Outcome& outcome, ForceFault fault) {
   // The sample at fault_at is half a millisecond after the fault: index n lies (n + 1)/2 ms after it.
   BOOST_TEST(outcome.half_milliseconds_to_silence <= 3);
   BOOST_TEST(outcome.stayed_silent);
-  BOOST_TEST((outcome.report.force.first_fault == fault),
-             feeler::to_string(outcome.report.force.first_fault));
+  BOOST_TEST((outcome.report.force.first_fault == fault), feeler::to_string(outcome.report.force.first_fault));
 }
 
 const std::vector<std::pair<const char*, Maker (*)(World&)>> makers = {
-    {"OpenHaptics", &feeler_test::open_haptics},
-    {"Force Dimension", &feeler_test::force_dimension},
-    {"Virtuose", &feeler_test::virtuose}};
+    {"OpenHaptics", &feeler_test::open_haptics}, {"Force Dimension", &feeler_test::force_dimension}, {"Virtuose", &feeler_test::virtuose}};
 
 }  // namespace
 
@@ -112,10 +108,7 @@ BOOST_AUTO_TEST_CASE(without_a_fault_the_force_stays_on_to_the_end) {
 BOOST_AUTO_TEST_CASE(a_wrench_that_is_not_finite_ends_in_silence_on_every_device) {
   for (const auto& [name, make] : makers) {
     BOOST_TEST_CONTEXT(name) {
-      check_silenced(run(make,
-                         [](Maker&, ServoLoop&, World&) {
-                           return DeviceWrench{{0, std::numeric_limits<double>::quiet_NaN(), 0}, {0, 0, 0}};
-                         }),
+      check_silenced(run(make, [](Maker&, ServoLoop&, World&) { return DeviceWrench{{0, std::numeric_limits<double>::quiet_NaN(), 0}, {0, 0, 0}}; }),
                      ForceFault::not_finite);
     }
   }
@@ -138,8 +131,7 @@ BOOST_AUTO_TEST_CASE(an_emergency_stop_ends_in_silence_on_every_device) {
 BOOST_AUTO_TEST_CASE(a_renderer_that_throws_ends_in_silence_on_every_device) {
   for (const auto& [name, make] : makers) {
     BOOST_TEST_CONTEXT(name) {
-      const auto outcome = run(
-          make, [](Maker&, ServoLoop&, World&) -> DeviceWrench { throw std::runtime_error("out of ideas"); });
+      const auto outcome = run(make, [](Maker&, ServoLoop&, World&) -> DeviceWrench { throw std::runtime_error("out of ideas"); });
       check_silenced(outcome, ForceFault::none);
       BOOST_TEST(outcome.report.problem == "The callback threw, so the loop ended: out of ideas");
       BOOST_TEST(outcome.report.ticks == fault_tick);
@@ -185,8 +177,7 @@ BOOST_AUTO_TEST_CASE(a_lost_open_haptics_device_ends_in_silence_and_a_sentence) 
     check_silenced(outcome, ForceFault::device_lost);
     BOOST_TEST(outcome.report.ticks < last_tick);
     BOOST_TEST(outcome.report.problem.find("The device was lost, so the force is off") == 0u);
-    BOOST_TEST(outcome.report.problem.find(is_error ? "check its power and cable" : "a pose that is none") !=
-               std::string::npos);
+    BOOST_TEST(outcome.report.problem.find(is_error ? "check its power and cable" : "a pose that is none") != std::string::npos);
   }
 }
 
@@ -259,11 +250,8 @@ BOOST_AUTO_TEST_CASE(a_cable_that_comes_off_is_told_and_a_device_that_comes_back
     void (*plug)(Maker&, bool);
     const char* words;
   };
-  const Cable cables[] = {
-      {&feeler_test::force_dimension, [](Maker& maker, bool is_in) { maker.dhd->is_unplugged = !is_in; },
-       "communication error"},
-      {&feeler_test::virtuose, [](Maker& maker, bool is_in) { maker.virtuose->is_unplugged = !is_in; },
-       "network cable"}};
+  const Cable cables[] = {{&feeler_test::force_dimension, [](Maker& maker, bool is_in) { maker.dhd->is_unplugged = !is_in; }, "communication error"},
+                          {&feeler_test::virtuose, [](Maker& maker, bool is_in) { maker.virtuose->is_unplugged = !is_in; }, "network cable"}};
   for (const Cable& cable : cables) {
     int back_at = 0;
     const auto outcome = run(cable.make, [&](Maker& maker, ServoLoop&, World& world) {
@@ -300,8 +288,7 @@ BOOST_AUTO_TEST_CASE(a_force_dimension_device_that_only_answers_with_its_time_gu
 
 BOOST_AUTO_TEST_CASE(what_hinders_a_force_dimension_device_ends_in_silence) {
   const std::vector<void (*)(feeler_test::ForceDimensionStandIn&)> hindrances = {
-      [](auto& dhd) { dhd.force_off_cause = 1; }, [](auto& dhd) { dhd.has_power = false; },
-      [](auto& dhd) { dhd.has_error = true; }};
+      [](auto& dhd) { dhd.force_off_cause = 1; }, [](auto& dhd) { dhd.has_power = false; }, [](auto& dhd) { dhd.has_error = true; }};
   for (const auto hinder : hindrances) {
     const auto outcome = run(&feeler_test::force_dimension, [=](Maker& maker, ServoLoop&, World&) {
       hinder(*maker.dhd);
@@ -313,10 +300,9 @@ BOOST_AUTO_TEST_CASE(what_hinders_a_force_dimension_device_ends_in_silence) {
 }
 
 BOOST_AUTO_TEST_CASE(what_hinders_a_virtuose_ends_in_silence) {
-  const std::vector<void (*)(feeler_test::VirtuoseStandIn&)> hindrances = {
-      [](auto& controller) { controller.is_emergency_stopped = true; },
-      [](auto& controller) { controller.is_powered = false; },
-      [](auto& controller) { controller.is_held = false; }};
+  const std::vector<void (*)(feeler_test::VirtuoseStandIn&)> hindrances = {[](auto& controller) { controller.is_emergency_stopped = true; },
+                                                                           [](auto& controller) { controller.is_powered = false; },
+                                                                           [](auto& controller) { controller.is_held = false; }};
   for (const auto hinder : hindrances) {
     const auto outcome = run(&feeler_test::virtuose, [=](Maker& maker, ServoLoop&, World&) {
       hinder(*maker.virtuose);

@@ -24,20 +24,13 @@ namespace {
 
 const feeler::DeviceSpecification premium = feeler::phantom_premium_3_0_6dof();  // 22 N, 3 N for ever
 
-double length(const double (&v)[3]) {
-  return std::hypot(v[0], v[1], v[2]);
-}
-bool is_silent(const DeviceWrench& wrench) {
-  return length(wrench.force) == 0 && length(wrench.torque) == 0;
-}
-DeviceWrench force(double x, double y = 0, double z = 0) {
-  return {{x, y, z}, {0, 0, 0}};
-}
+double length(const double (&v)[3]) { return std::hypot(v[0], v[1], v[2]); }
+bool is_silent(const DeviceWrench& wrench) { return length(wrench.force) == 0 && length(wrench.torque) == 0; }
+DeviceWrench force(double x, double y = 0, double z = 0) { return {{x, y, z}, {0, 0, 0}}; }
 
 /// A session at 1 kHz, a tick at a time.
 struct Session {
-  explicit Session(const feeler::DeviceSpecification& device = premium)
-      : safety(feeler::limits_of(device), device) {}
+  explicit Session(const feeler::DeviceSpecification& device = premium) : safety(feeler::limits_of(device), device) {}
   explicit Session(const ForceLimits& limits) : safety(limits, premium) {}
 
   /// One tick that is on time, with a pose that is new.
@@ -76,8 +69,7 @@ BOOST_AUTO_TEST_CASE(it_starts_with_nothing_until_the_pose_is_free) {
 BOOST_AUTO_TEST_CASE(the_ramp_grows_in_a_straight_line_over_its_time) {
   Session session;
   session.push({});
-  for (int i = 1; i < 300; ++i)
-    BOOST_TEST(session.push(force(2)).force[0] == 2 * i / 300.0, boost::test_tools::tolerance(1e-9));
+  for (int i = 1; i < 300; ++i) BOOST_TEST(session.push(force(2)).force[0] == 2 * i / 300.0, boost::test_tools::tolerance(1e-9));
   session.push(force(2));
   session.push(force(2));
   BOOST_TEST((session.safety.phase() == ForcePhase::on));
@@ -122,9 +114,7 @@ BOOST_AUTO_TEST_CASE(whatever_is_wanted_it_is_never_lengthened_never_turned_and_
     BOOST_REQUIRE(t <= std::min(limits.maximum_torque, length(wanted.torque)) * (1 + 1e-12));
     BOOST_REQUIRE(f <= last_force + limits.force_slew * 1e-3 + 1e-12);
     BOOST_REQUIRE(t <= last_torque + limits.torque_slew * 1e-3 + 1e-12);
-    for (int k = 0; k < 3; ++k)
-      BOOST_REQUIRE(std::abs(pushed.force[k] * length(wanted.force) - wanted.force[k] * f) <
-                    1e-9 * scale * 22);
+    for (int k = 0; k < 3; ++k) BOOST_REQUIRE(std::abs(pushed.force[k] * length(wanted.force) - wanted.force[k] * f) < 1e-9 * scale * 22);
     last_force = f;
     last_torque = t;
   }
@@ -185,12 +175,8 @@ BOOST_AUTO_TEST_CASE(what_stops_the_force_stops_it_in_the_same_tick_and_for_as_l
   const Stop stops[] = {
       {[](Session& s) { s.tick.request = ForceRequest::stop; }, force(2), ForceFault::emergency_stop, true},
       {[](Session&) {}, force(nan), ForceFault::not_finite, true},
-      {[](Session&) {},
-       {{0, 0, 0}, {0, std::numeric_limits<double>::infinity(), 0}},
-       ForceFault::not_finite,
-       true},
-      {[](Session& s) { s.tick.state.pose.orientation[2] = std::numeric_limits<double>::quiet_NaN(); },
-       force(2), ForceFault::not_finite, true},
+      {[](Session&) {}, {{0, 0, 0}, {0, std::numeric_limits<double>::infinity(), 0}}, ForceFault::not_finite, true},
+      {[](Session& s) { s.tick.state.pose.orientation[2] = std::numeric_limits<double>::quiet_NaN(); }, force(2), ForceFault::not_finite, true},
       {[](Session& s) { s.tick.status = DeviceStatus::fault; }, force(2), ForceFault::device_lost, false},
       {[](Session& s) { s.tick.status = DeviceStatus::not_open; }, force(2), ForceFault::device_lost, false},
   };
@@ -247,9 +233,7 @@ BOOST_AUTO_TEST_CASE(a_device_that_complains_is_let_go_at_once_until_the_pose_is
   };
   for (const Complaint& complaint :
        {Complaint{[](Session& s) { s.tick.status = DeviceStatus::warning; }, ForceFault::device_warning},
-        Complaint{
-            [](Session& s) { s.tick.state.motor_temperature = std::numeric_limits<double>::quiet_NaN(); },
-            ForceFault::hot_motors}}) {
+        Complaint{[](Session& s) { s.tick.state.motor_temperature = std::numeric_limits<double>::quiet_NaN(); }, ForceFault::hot_motors}}) {
     Session session;
     session.start(force(4));
     complaint.cause(session);
@@ -320,7 +304,7 @@ BOOST_AUTO_TEST_CASE(a_force_only_device_drops_the_torque_and_says_how_much) {
 BOOST_AUTO_TEST_CASE(limits_that_are_none_are_refused) {
   const double nan = std::numeric_limits<double>::quiet_NaN();
   const double infinity = std::numeric_limits<double>::infinity();
-  const auto refuses = [](double ForceLimits::*limit, std::vector<double> values) {
+  const auto refuses = [](double ForceLimits::* limit, std::vector<double> values) {
     for (const double value : values) {
       ForceLimits limits = feeler::limits_of(premium);
       limits.*limit = value;
@@ -344,8 +328,7 @@ BOOST_AUTO_TEST_CASE(limits_that_are_none_are_refused) {
 }
 
 BOOST_AUTO_TEST_CASE(every_fault_and_phase_has_words) {
-  for (int fault = 0; fault < feeler::force_faults; ++fault)
-    BOOST_TEST(feeler::to_string(ForceFault(fault)) != "unknown fault");
+  for (int fault = 0; fault < feeler::force_faults; ++fault) BOOST_TEST(feeler::to_string(ForceFault(fault)) != "unknown fault");
   for (int phase = 0; phase < 5; ++phase) BOOST_TEST(feeler::to_string(ForcePhase(phase)) != "unknown phase");
 }
 

@@ -61,8 +61,8 @@ constexpr DeviceWrench some_push{{1, 2, -1}, {0.01, 0, 0.02}};
 }  // namespace
 
 BOOST_AUTO_TEST_CASE(a_renderer_that_hangs_is_let_go_of_on_every_device_and_comes_back_by_the_ramp) {
-  for (const auto& [make, rate] : {std::pair(&open_haptics, 1000.0), std::pair(&force_dimension, 1000.0),
-                                   std::pair(&force_dimension, 4000.0), std::pair(&virtuose, 1000.0)}) {
+  for (const auto& [make, rate] :
+       {std::pair(&open_haptics, 1000.0), std::pair(&force_dimension, 1000.0), std::pair(&force_dimension, 4000.0), std::pair(&virtuose, 1000.0)}) {
     Maker maker = make();
     BOOST_TEST_CONTEXT(maker.name << " at " << rate << " Hz") {
       BOOST_REQUIRE(bool(maker.device->open()));
@@ -95,12 +95,10 @@ BOOST_AUTO_TEST_CASE(a_renderer_that_hangs_is_let_go_of_on_every_device_and_come
       const auto& report = loop.wait();
       BOOST_TEST(was_silent);  // after 100 ms; to be expected are 2 ms after the tick was due
       const std::chrono::duration<double, std::milli> gap = silent_since - last_push;
-      BOOST_TEST_MESSAGE(maker.name << " at " << rate << " Hz: from the last push to silence " << gap.count()
-                                    << " ms, with " << report.setup.policy);
+      BOOST_TEST_MESSAGE(maker.name << " at " << rate << " Hz: from the last push to silence " << gap.count() << " ms, with " << report.setup.policy);
       BOOST_TEST(pushed_first < 0.1);  // not what was on when it hung; the ramp begins with 0.05
       BOOST_TEST(report.let_go > 0);
-      BOOST_TEST(to_string(report).find("watchdog: the renderer or the system held the loop up") !=
-                 std::string::npos);
+      BOOST_TEST(to_string(report).find("watchdog: the renderer or the system held the loop up") != std::string::npos);
       BOOST_TEST(report.force.ticks_with[std::size_t(feeler::ForceFault::late_tick)] > 0);
       maker.device->close();
     }

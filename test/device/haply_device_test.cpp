@@ -33,9 +33,7 @@ feeler::HaplySettings settings(const HaplyStandIn& service) {
   return settings;
 }
 
-bool says(const std::string& sentence, const std::string& words) {
-  return sentence.find(words) != std::string::npos;
-}
+bool says(const std::string& sentence, const std::string& words) { return sentence.find(words) != std::string::npos; }
 
 /// Waits for what must come, 5 s at most.
 bool comes(const std::function<bool()>& is_there) {
@@ -300,8 +298,10 @@ BOOST_AUTO_TEST_CASE(while_the_arm_must_not_push_or_the_grip_does_not_answer_it_
     const char* words;
   };
   const Hindrance hindrances[] = {
-      {[](auto& w) { w.is_calibrated = false; }, "not calibrated"}, {[](auto& w) { w.has_power = false; }, "no power"},
-      {[](auto& w) { w.is_ready = false; }, "not ready"},           {[](auto& w) { w.is_grip_awake = false; }, "VerseGrip does not answer"},
+      {[](auto& w) { w.is_calibrated = false; }, "not calibrated"},
+      {[](auto& w) { w.has_power = false; }, "no power"},
+      {[](auto& w) { w.is_ready = false; }, "not ready"},
+      {[](auto& w) { w.is_grip_awake = false; }, "VerseGrip does not answer"},
       {[](auto& w) { w.is_grip_told = false; }, "VerseGrip does not answer"},
   };
   for (const Hindrance& hindrance : hindrances) {

@@ -40,7 +40,8 @@ BOOST_AUTO_TEST_CASE(a_list_of_devices_is_read_as_it_is) {
 }
 
 BOOST_AUTO_TEST_CASE(what_is_not_told_stays_open_and_what_is_no_number_is_a_nan) {
-  const auto message = feeler::read_service_message(R"({"inverse3": [{"device_id": 5, "status": 7, "state": {"cursor_position": {"x": null, "y": "1"}}}, [], 3]})");
+  const auto message =
+      feeler::read_service_message(R"({"inverse3": [{"device_id": 5, "status": 7, "state": {"cursor_position": {"x": null, "y": "1"}}}, [], 3]})");
   BOOST_REQUIRE(message.has_value());
   BOOST_REQUIRE(message->arms.size() == 3u);
   const auto& arm = message->arms.front();

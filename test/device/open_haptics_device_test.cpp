@@ -25,28 +25,20 @@ using feeler::OpenHapticsDevice;
 
 namespace {
 
-feeler_test::OpenHapticsStandIn& fresh() {
-  return feeler_test::stand_in<feeler_test::OpenHapticsStandIn>(FEELER_OPEN_HAPTICS_STAND_IN);
-}
+feeler_test::OpenHapticsStandIn& fresh() { return feeler_test::stand_in<feeler_test::OpenHapticsStandIn>(FEELER_OPEN_HAPTICS_STAND_IN); }
 
-feeler::OpenHapticsSettings settings() {
-  return {{FEELER_OPEN_HAPTICS_STAND_IN}, ""};
-}
+feeler::OpenHapticsSettings settings() { return {{FEELER_OPEN_HAPTICS_STAND_IN}, ""}; }
 
 bool is_silent(const feeler_test::OpenHapticsStandIn& hd) {
   const auto is_zero = [](double component) { return component == 0; };
   return std::all_of(hd.force, hd.force + 3, is_zero) && std::all_of(hd.torque, hd.torque + 3, is_zero);
 }
 
-bool says(const std::string& sentence, const char* words) {
-  return sentence.find(words) != std::string::npos;
-}
+bool says(const std::string& sentence, const char* words) { return sentence.find(words) != std::string::npos; }
 
 constexpr DeviceWrench some_push{{1, -2, 3}, {0.01, 0.02, -0.03}};
 
-feeler::OpenHapticsSettings settings_of_second() {
-  return {{FEELER_OPEN_HAPTICS_STAND_IN}, "second"};
-}
+feeler::OpenHapticsSettings settings_of_second() { return {{FEELER_OPEN_HAPTICS_STAND_IN}, "second"}; }
 
 /// Reads and writes as a servo loop does, on a thread of its own.
 class Loop {
@@ -61,8 +53,7 @@ class Loop {
   /// Whether the device gave a new pose and took a force since this was asked last; waits for it up to a second.
   bool goes_on() {
     const int ticks = good_ticks_;
-    for (int wait = 0; wait < 1000 && good_ticks_ < ticks + 3; ++wait)
-      std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    for (int wait = 0; wait < 1000 && good_ticks_ < ticks + 3; ++wait) std::this_thread::sleep_for(std::chrono::milliseconds(1));
     return good_ticks_ >= ticks + 3;
   }
 
@@ -185,8 +176,7 @@ BOOST_AUTO_TEST_CASE(a_missing_library_is_said_with_the_words_of_the_linker_and_
 }
 
 BOOST_AUTO_TEST_CASE(a_missing_function_is_named) {
-  OpenHapticsDevice device(
-      feeler::OpenHapticsSettings{{FEELER_OPEN_HAPTICS_STAND_IN_OF_AN_OLDER_VERSION}, ""});
+  OpenHapticsDevice device(feeler::OpenHapticsSettings{{FEELER_OPEN_HAPTICS_STAND_IN_OF_AN_OLDER_VERSION}, ""});
   const auto opened = device.open();
   BOOST_TEST(!opened);
   BOOST_TEST(says(opened.problem, "has no function hdCheckCalibration"));
@@ -204,15 +194,12 @@ BOOST_AUTO_TEST_CASE(a_device_that_cannot_start_is_refused_with_a_sentence_and_l
       {[](auto& hd) { hd.error_at_init = 0x777; }, "an error in the words of libHD"},
       {[](auto& hd) { hd.error_at_start = 0x304; }, "servo timer"},
       {[](auto& hd) { hd.calibration = 0x5002; }, "inkwell"},
-      {[](auto& hd) { hd.calibration = 0x5001, hd.updates_missing = 1'000'000, hd.own_thread = true; },
-       "not calibrated"},
+      {[](auto& hd) { hd.calibration = 0x5001, hd.updates_missing = 1'000'000, hd.own_thread = true; }, "not calibrated"},
       // An encoder reset is for who holds the arm in its reset position.
       {[](auto& hd) { hd.calibration = 0x5001, hd.calibration_styles = 1; }, "not calibrated"},
-      {[](auto& hd) { hd.calibration = 0x5001, hd.error_at_update = 0x300; },
-       "cannot be calibrated: The device reports a fault"},
+      {[](auto& hd) { hd.calibration = 0x5001, hd.error_at_update = 0x300; }, "cannot be calibrated: The device reports a fault"},
       {[](auto& hd) { hd.calibration = 0x5001, hd.error_at_update = 0x302; }, "check its power and cable"},
-      {[](auto& hd) { hd.error_in_every_frame = 0x101; },
-       "no pose came within a second (an error in the words of libHD)"},
+      {[](auto& hd) { hd.error_in_every_frame = 0x101; }, "no pose came within a second (an error in the words of libHD)"},
       {[](auto& hd) { hd.never_calls_back = true; }, "no pose came within a second"},
       {[](auto& hd) { std::fill(hd.transform, hd.transform + 16, 0.0); }, "a pose that is none"},
   };
@@ -265,10 +252,8 @@ BOOST_AUTO_TEST_CASE(force_errors_silence_the_device_by_the_next_frame_are_told_
       BOOST_REQUIRE(!is_silent(hd));
       (after_push ? hd.error_after_push : hd.error_in_next_frame) = error;
       push_once(device, hd);  // the frame with the error
-      if (after_push)
-        push_once(device, hd);  // told by this read; the wrench follows that knows of it
-      else
-        BOOST_TEST(is_silent(hd));  // in the same frame
+      if (after_push) push_once(device, hd);  // told by this read; the wrench follows that knows of it
+      else BOOST_TEST(is_silent(hd));  // in the same frame
       DeviceState state;
       if (!after_push) BOOST_TEST((device.read(state) == DeviceStatus::warning));
       BOOST_TEST(says(device.complaint(), "(0x020"), device.complaint());

@@ -72,9 +72,7 @@ Bounce bounce_off(double stiffness, const PassivitySettings* settings) {
   return bounce;
 }
 
-double length(const double (&v)[3]) {
-  return std::hypot(v[0], v[1], v[2]);
-}
+double length(const double (&v)[3]) { return std::hypot(v[0], v[1], v[2]); }
 
 }  // namespace
 
@@ -218,8 +216,7 @@ BOOST_AUTO_TEST_CASE(what_is_not_finite_passes_and_spoils_nothing) {
 }
 
 BOOST_AUTO_TEST_CASE(settings_that_make_no_sense_are_refused) {
-  for (const double bad :
-       {-1.0, std::numeric_limits<double>::infinity(), std::numeric_limits<double>::quiet_NaN()}) {
+  for (const double bad : {-1.0, std::numeric_limits<double>::infinity(), std::numeric_limits<double>::quiet_NaN()}) {
     PassivitySettings settings;
     settings.damping = bad;
     BOOST_CHECK_THROW(PassivityControl{settings}, std::invalid_argument);
@@ -237,11 +234,8 @@ BOOST_AUTO_TEST_CASE(a_servo_loop_damps_before_its_safety_and_reports_it) {
   for (const bool is_passive : {false, true}) {
     feeler::SimulatedPhantomSettings phantom_settings;
     phantom_settings.grip = {.stiffness = 50, .rotational_stiffness = 0.05, .damping_ratio = 0.1};
-    feeler::SimulatedPhantom phantom(
-        [](double time) {
-          return feeler::DevicePose{{0, std::max(0.005 - 0.05 * time, -0.01), 0}, {1, 0, 0, 0}};
-        },
-        phantom_settings);
+    feeler::SimulatedPhantom phantom([](double time) { return feeler::DevicePose{{0, std::max(0.005 - 0.05 * time, -0.01), 0}, {1, 0, 0, 0}}; },
+                                     phantom_settings);
     BOOST_REQUIRE(bool(phantom.open()));
     feeler::ServoSettings settings;
     settings.rate = 0;
@@ -262,8 +256,7 @@ BOOST_AUTO_TEST_CASE(a_servo_loop_damps_before_its_safety_and_reports_it) {
     BOOST_TEST((to_string(report).find("passivity") != std::string::npos) == is_passive);
     BOOST_TEST(report.force.peak_force <= phantom.specification().maximum_force * (1 + 1e-12));
   }
-  BOOST_TEST_MESSAGE("farthest from the wall in the last second: " << calm[0] << " m, with passivity control "
-                                                                   << calm[1] << " m");
+  BOOST_TEST_MESSAGE("farthest from the wall in the last second: " << calm[0] << " m, with passivity control " << calm[1] << " m");
   BOOST_TEST(calm[1] < calm[0] / 3);
 }
 

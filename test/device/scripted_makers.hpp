@@ -53,16 +53,13 @@ struct Maker {
   VirtuoseStandIn* virtuose = nullptr;
 };
 
-inline bool is_zero(const double (&v)[3]) {
-  return v[0] == 0 && v[1] == 0 && v[2] == 0;
-}
+inline bool is_zero(const double (&v)[3]) { return v[0] == 0 && v[1] == 0 && v[2] == 0; }
 
 inline Maker open_haptics(World& world) {
   Maker maker;
   auto& hd = stand_in<OpenHapticsStandIn>(FEELER_OPEN_HAPTICS_STAND_IN);
   maker.hd = &hd;
-  maker.device = std::make_unique<feeler::OpenHapticsDevice>(
-      feeler::OpenHapticsSettings{{FEELER_OPEN_HAPTICS_STAND_IN}, ""}, &world);
+  maker.device = std::make_unique<feeler::OpenHapticsDevice>(feeler::OpenHapticsSettings{{FEELER_OPEN_HAPTICS_STAND_IN}, ""}, &world);
   world.frame = [&hd] { hd.tick(); };
   world.is_silent = [&hd] { return is_zero(hd.force) && is_zero(hd.torque); };
   return maker;
@@ -72,8 +69,7 @@ inline Maker force_dimension(World& world) {
   Maker maker;
   auto& dhd = stand_in<ForceDimensionStandIn>(FEELER_FORCE_DIMENSION_STAND_IN);
   maker.dhd = &dhd;
-  maker.device = std::make_unique<feeler::ForceDimensionDevice>(
-      feeler::ForceDimensionSettings{{FEELER_FORCE_DIMENSION_STAND_IN}}, &world);
+  maker.device = std::make_unique<feeler::ForceDimensionDevice>(feeler::ForceDimensionSettings{{FEELER_FORCE_DIMENSION_STAND_IN}}, &world);
   world.is_silent = [&dhd] { return is_zero(dhd.force) && is_zero(dhd.torque); };
   return maker;
 }

@@ -48,8 +48,7 @@ ServoSettings quiet(double rate, std::int64_t ticks) {
 }
 
 /// Runs ticks that take these times at 1 kHz, and returns what each callback was told.
-std::vector<ServoTick> run_script(const std::vector<std::int64_t>& work, feeler::ServoReport& report,
-                                  std::int64_t lateness = 0) {
+std::vector<ServoTick> run_script(const std::vector<std::int64_t>& work, feeler::ServoReport& report, std::int64_t lateness = 0) {
   ScriptedClock clock;
   clock.lateness = lateness;
   std::vector<ServoTick> told;
@@ -121,8 +120,7 @@ BOOST_AUTO_TEST_CASE(late_wake_ups_are_latency_and_miss_only_the_deadlines_they_
 BOOST_AUTO_TEST_CASE(without_a_rate_it_does_not_wait) {
   ScriptedClock clock;
   clock.lateness = 1'000 * millisecond;  // would show
-  ServoLoop loop(
-      quiet(0, 1000), [&](const ServoTick&) { return clock.spend(10), true; }, &clock);
+  ServoLoop loop(quiet(0, 1000), [&](const ServoTick&) { return clock.spend(10), true; }, &clock);
   loop.start();
   const auto& report = loop.wait();
   BOOST_TEST(report.ticks == 1000);
@@ -133,8 +131,7 @@ BOOST_AUTO_TEST_CASE(without_a_rate_it_does_not_wait) {
 
 BOOST_AUTO_TEST_CASE(the_callback_ends_it_by_its_answer_and_by_stop) {
   ScriptedClock clock;
-  ServoLoop answering(
-      quiet(1000, 0), [](const ServoTick& tick) { return tick.index < 9; }, &clock);
+  ServoLoop answering(quiet(1000, 0), [](const ServoTick& tick) { return tick.index < 9; }, &clock);
   answering.start();
   BOOST_TEST(answering.wait().ticks == 10);
   BOOST_TEST(!answering.is_running());
@@ -154,8 +151,7 @@ BOOST_AUTO_TEST_CASE(the_callback_ends_it_by_its_answer_and_by_stop) {
 
 BOOST_AUTO_TEST_CASE(a_callback_that_throws_ends_it_with_a_sentence) {
   ScriptedClock clock;
-  ServoLoop loop(
-      quiet(1000, 0), [](const ServoTick&) -> bool { throw std::runtime_error("the cable came off"); }, &clock);
+  ServoLoop loop(quiet(1000, 0), [](const ServoTick&) -> bool { throw std::runtime_error("the cable came off"); }, &clock);
   loop.start();
   BOOST_TEST(loop.wait().problem == "The callback threw, so the loop ended: the cable came off");
   BOOST_TEST(feeler::to_string(loop.wait()).find("the cable came off") != std::string::npos);

@@ -20,8 +20,7 @@ namespace {
 
 /// A file of this process, gone with the test.
 struct ScratchFile {
-  ScratchFile()
-      : path(std::filesystem::temp_directory_path() / ("feeler-session-" + std::to_string(getpid()))) {}
+  ScratchFile() : path(std::filesystem::temp_directory_path() / ("feeler-session-" + std::to_string(getpid()))) {}
   ~ScratchFile() { std::filesystem::remove(path); }
   std::filesystem::path path;
 };
@@ -32,9 +31,7 @@ feeler::DeviceWrench wall(const feeler::DeviceState& state) {
 
 /// A hand that presses into a wall, with an emergency stop, a restart and a NaN on the way.
 feeler::SessionRecording record(std::size_t capacity) {
-  feeler::SimulatedPhantom device([](double t) {
-    return feeler::DevicePose{{0.02 * std::sin(3 * t), 0.01 * std::cos(5 * t), 0}, {1, 0, 0, 0}};
-  });
+  feeler::SimulatedPhantom device([](double t) { return feeler::DevicePose{{0.02 * std::sin(3 * t), 0.01 * std::cos(5 * t), 0}, {1, 0, 0, 0}}; });
   BOOST_REQUIRE(bool(device.open()));
   feeler::SessionRecorder recorder(capacity);
   feeler::ServoSettings settings;
@@ -43,14 +40,13 @@ feeler::SessionRecording record(std::size_t capacity) {
   settings.real_time = {.fifo = false, .priority = 80, .lock_memory = false, .processor = -1};
   settings.recorder = &recorder;
   feeler::ServoLoop* self = nullptr;
-  feeler::ServoLoop loop(settings, device,
-                         [&self](const feeler::ServoTick& tick, const feeler::DeviceState& state) {
-                           if (tick.index == 1500) self->stop_force();
-                           if (tick.index == 1700 || tick.index == 2600) self->restart_force();
-                           feeler::DeviceWrench wrench = wall(state);
-                           if (tick.index == 2500) wrench.force[2] = std::numeric_limits<double>::quiet_NaN();
-                           return wrench;
-                         });
+  feeler::ServoLoop loop(settings, device, [&self](const feeler::ServoTick& tick, const feeler::DeviceState& state) {
+    if (tick.index == 1500) self->stop_force();
+    if (tick.index == 1700 || tick.index == 2600) self->restart_force();
+    feeler::DeviceWrench wrench = wall(state);
+    if (tick.index == 2500) wrench.force[2] = std::numeric_limits<double>::quiet_NaN();
+    return wrench;
+  });
   self = &loop;
   loop.start();
   loop.wait();
@@ -75,10 +71,8 @@ BOOST_AUTO_TEST_CASE(a_session_is_replayed_from_its_file_bit_for_bit) {
   BOOST_TEST(loaded.device.name == recording.device.name);
   BOOST_REQUIRE(loaded.ticks.size() == recording.ticks.size());
   for (std::size_t i = 0; i < loaded.ticks.size(); ++i) {
-    BOOST_REQUIRE(
-        std::memcmp(&loaded.ticks[i].pushed, &recording.ticks[i].pushed, sizeof(feeler::DeviceWrench)) == 0);
-    BOOST_REQUIRE(std::memcmp(&loaded.ticks[i].tick.state.pose, &recording.ticks[i].tick.state.pose,
-                              sizeof(feeler::DevicePose)) == 0);
+    BOOST_REQUIRE(std::memcmp(&loaded.ticks[i].pushed, &recording.ticks[i].pushed, sizeof(feeler::DeviceWrench)) == 0);
+    BOOST_REQUIRE(std::memcmp(&loaded.ticks[i].tick.state.pose, &recording.ticks[i].tick.state.pose, sizeof(feeler::DevicePose)) == 0);
   }
   const auto safety_alone = feeler::replay(loaded);
   BOOST_TEST(safety_alone.ticks == 3000u);

@@ -28,9 +28,7 @@ DevicePose turned_about_x(double angle) { return {{0, 0, 0}, {std::cos(angle / 2
 double angle_about_x(const DevicePose& pose) { return 2 * std::atan2(pose.orientation[1], pose.orientation[0]); }
 
 /// Presses to a depth within 50 ms and holds: a hand that hits the wall at up to 0.3 m/s.
-double pressed(double time, double start, double depth) {
-  return start + (depth - start) * std::min(time / 0.05, 1.0);
-}
+double pressed(double time, double start, double depth) { return start + (depth - start) * std::min(time / 0.05, 1.0); }
 
 struct Settling {
   double peak_early = 0;   // of the deviation from the balance, 0.5 s to 1 s
@@ -179,16 +177,14 @@ BOOST_AUTO_TEST_CASE(a_wall_of_1000_newtons_a_metre_settles_without_growth_or_li
       SimulatedPhantomSettings settings;
       settings.grip.stiffness = grip_stiffness;
       const double depth = -0.005;
-      SimulatedPhantom phantom(
-          [depth](double t) { return DevicePose{{0, pressed(t, 0.01, depth), 0}, {1, 0, 0, 0}}; }, settings);
+      SimulatedPhantom phantom([depth](double t) { return DevicePose{{0, pressed(t, 0.01, depth), 0}, {1, 0, 0, 0}}; }, settings);
       // Two springs in series: (k_grip + K) x = k_grip · depth.
       const double balance = grip_stiffness * depth / (grip_stiffness + 1000);
       const double count = settings.specification.position_resolution;
       const auto settling = run_against_wall(
           phantom, balance, [](const DevicePose& pose) { return pose.position[1]; },
           [](double into) { return DeviceWrench{{0, 1000 * into, 0}, {0, 0, 0}}; });
-      BOOST_TEST_MESSAGE("late span " << settling.span_late / count << " counts, early peak "
-                                      << settling.peak_early / count << " counts");
+      BOOST_TEST_MESSAGE("late span " << settling.span_late / count << " counts, early peak " << settling.peak_early / count << " counts");
       BOOST_TEST(settling.span_late <= 3 * count);
       BOOST_TEST(settling.peak_early <= 3 * count);
       BOOST_TEST(std::abs(settling.mean_late - balance) <= 2 * count);
@@ -206,8 +202,7 @@ BOOST_AUTO_TEST_CASE(a_rotational_wall_of_0_3_newton_metres_a_radian_settles_too
   const auto settling = run_against_wall(
       phantom, balance, [](const DevicePose& pose) { return angle_about_x(pose); },
       [](double into) { return DeviceWrench{{0, 0, 0}, {0.3 * into, 0, 0}}; });
-  BOOST_TEST_MESSAGE("late span " << settling.span_late / count << " counts, early peak "
-                                  << settling.peak_early / count << " counts");
+  BOOST_TEST_MESSAGE("late span " << settling.span_late / count << " counts, early peak " << settling.peak_early / count << " counts");
   BOOST_TEST(settling.span_late <= 3 * count);
   BOOST_TEST(settling.peak_early <= 3 * count);
   BOOST_TEST(std::abs(settling.mean_late - balance) <= 2 * count);
@@ -218,8 +213,7 @@ BOOST_AUTO_TEST_CASE(a_wall_far_too_stiff_for_the_delay_does_buzz) {
   SimulatedPhantom phantom([](double t) { return DevicePose{{0, pressed(t, 0.01, -0.005), 0}, {1, 0, 0, 0}}; });
   const double count = phantom.specification().position_resolution;
   const auto settling = run_against_wall(
-      phantom, 0, [](const DevicePose& pose) { return pose.position[1]; },
-      [](double into) { return DeviceWrench{{0, 1e5 * into, 0}, {0, 0, 0}}; });
+      phantom, 0, [](const DevicePose& pose) { return pose.position[1]; }, [](double into) { return DeviceWrench{{0, 1e5 * into, 0}, {0, 0, 0}}; });
   BOOST_TEST(settling.span_late > 10 * count);
 }
 

@@ -22,8 +22,7 @@ BOOST_AUTO_TEST_CASE(a_passive_wall_meets_the_criterion_of_colgate_and_schenkel_
     for (int i = 1; i < 20'000; ++i) {
       const double angle = std::numbers::pi * i / 20'000;  // ωT
       const auto wall = stiffness * std::exp(-1i * (delay * angle));
-      most = std::max(most,
-                      period / 2 * std::real((1.0 - std::exp(-1i * angle)) * wall) / (1 - std::cos(angle)));
+      most = std::max(most, period / 2 * std::real((1.0 - std::exp(-1i * angle)) * wall) / (1 - std::cos(angle)));
     }
     BOOST_TEST(most == damping, boost::test_tools::tolerance(1e-6));
   }
@@ -37,9 +36,7 @@ BOOST_AUTO_TEST_CASE(virtual_damping_takes_from_the_bound_whatever_its_sign) {
 
 BOOST_AUTO_TEST_CASE(encoders_bound_what_friction_can_hold) {
   // Worked out by hand from the datasheets' friction and resolution [N/mm].
-  const auto quantised = [](const feeler::DeviceSpecification& device) {
-    return feeler::stiffness_limits_of(device, 1e-3).quantised / 1000;
-  };
+  const auto quantised = [](const feeler::DeviceSpecification& device) { return feeler::stiffness_limits_of(device, 1e-3).quantised / 1000; };
   BOOST_TEST(quantised(feeler::phantom_premium_3_0_6dof()) == 20, boost::test_tools::tolerance(0.01));
   BOOST_TEST(quantised(feeler::phantom_premium_1_5_6dof()) == 2.7, boost::test_tools::tolerance(0.02));
   BOOST_TEST(quantised(feeler::touch()) == 9.5, boost::test_tools::tolerance(0.01));

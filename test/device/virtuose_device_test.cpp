@@ -20,9 +20,7 @@ using feeler::VirtuoseDevice;
 
 namespace {
 
-feeler_test::VirtuoseStandIn& fresh() {
-  return feeler_test::stand_in<feeler_test::VirtuoseStandIn>(FEELER_VIRTUOSE_STAND_IN);
-}
+feeler_test::VirtuoseStandIn& fresh() { return feeler_test::stand_in<feeler_test::VirtuoseStandIn>(FEELER_VIRTUOSE_STAND_IN); }
 
 feeler::VirtuoseSettings settings() {
   feeler::VirtuoseSettings settings;
@@ -34,9 +32,7 @@ bool is_silent(const feeler_test::VirtuoseStandIn& device) {
   return std::all_of(device.wrench, device.wrench + 6, [](float component) { return component == 0; });
 }
 
-bool says(const std::string& sentence, const char* words) {
-  return sentence.find(words) != std::string::npos;
-}
+bool says(const std::string& sentence, const char* words) { return sentence.find(words) != std::string::npos; }
 
 constexpr DeviceWrench some_push{{1, 2, 3}, {0.25, 0.5, 0.125}};
 
@@ -101,10 +97,8 @@ BOOST_AUTO_TEST_CASE(a_device_that_cannot_start_is_refused_with_a_sentence_and_l
     const char* words;
   };
   const Fault faults[] = {
-      {[](auto& controller) { controller.refuses_to_open = true; },
-       "no controller answers at localhost#5000 (communication failure)"},
-      {[](auto& controller) { controller.refuses_impedance = true; },
-       "refuses impedance mode (wrong mode)"},
+      {[](auto& controller) { controller.refuses_to_open = true; }, "no controller answers at localhost#5000 (communication failure)"},
+      {[](auto& controller) { controller.refuses_impedance = true; }, "refuses impedance mode (wrong mode)"},
       {[](auto& controller) { std::fill(controller.pose, controller.pose + 7, 0.0f); }, "gives no pose"},
       {[](auto& controller) { controller.failure = 4; }, "have it repaired"},
   };
@@ -129,8 +123,7 @@ BOOST_AUTO_TEST_CASE(while_the_device_must_not_push_it_pushes_nothing_and_says_w
     const char* words;
   };
   const Hindrance hindrances[] = {
-      {[](auto& c) { c.is_emergency_stopped = true; }, [](auto& c) { c.is_emergency_stopped = false; },
-       "emergency stop"},
+      {[](auto& c) { c.is_emergency_stopped = true; }, [](auto& c) { c.is_emergency_stopped = false; }, "emergency stop"},
       {[](auto& c) { c.is_powered = false; }, [](auto& c) { c.is_powered = true; }, "power"},
       {[](auto& c) { c.is_held = false; }, [](auto& c) { c.is_held = true; }, "dead man's switch"},
   };
@@ -230,8 +223,7 @@ BOOST_AUTO_TEST_CASE(poses_and_wrenches_that_are_none_push_nothing) {
   VirtuoseDevice device(settings());
   BOOST_REQUIRE(bool(device.open()));
   device.write(some_push);
-  BOOST_TEST((device.write({{0, 0, 0}, {std::numeric_limits<double>::infinity(), 0, 0}}) ==
-              DeviceStatus::not_finite));
+  BOOST_TEST((device.write({{0, 0, 0}, {std::numeric_limits<double>::infinity(), 0, 0}}) == DeviceStatus::not_finite));
   BOOST_TEST(is_silent(controller));
   device.write(some_push);
   controller.pose[6] = 0.5f;

@@ -21,12 +21,8 @@ using feeler::WorkspaceSettings;
 
 namespace {
 
-Vector3d vector(const double (&v)[3]) {
-  return {v[0], v[1], v[2]};
-}
-Quaterniond rotation(const double (&q)[4]) {
-  return {q[0], q[1], q[2], q[3]};
-}
+Vector3d vector(const double (&v)[3]) { return {v[0], v[1], v[2]}; }
+Quaterniond rotation(const double (&q)[4]) { return {q[0], q[1], q[2], q[3]}; }
 
 DeviceState at(const Vector3d& p, const Quaterniond& q, std::uint32_t buttons = 0) {
   DeviceState state;
@@ -42,13 +38,10 @@ struct Random {
   Quaterniond turn() { return Quaterniond(unit(), unit(), unit(), unit()).normalized(); }
 };
 
-WorkspaceSettings turned(double scale, const Quaterniond& q) {
-  return {scale, {q.w(), q.x(), q.y(), q.z()}, 1, false};
-}
+WorkspaceSettings turned(double scale, const Quaterniond& q) { return {scale, {q.w(), q.x(), q.y(), q.z()}, 1, false}; }
 
 double distance(const DevicePose& a, const DevicePose& b) {
-  return (vector(a.position) - vector(b.position)).norm() +
-         rotation(a.orientation).angularDistance(rotation(b.orientation));
+  return (vector(a.position) - vector(b.position)).norm() + rotation(a.orientation).angularDistance(rotation(b.orientation));
 }
 
 }  // namespace
@@ -103,8 +96,7 @@ BOOST_AUTO_TEST_CASE(the_work_of_the_hand_is_that_of_the_scene_divided_by_the_sc
 
     const Vector3d step = 1e-6 * random.point();
     const Vector3d turn = 1e-6 * random.point();
-    const Quaterniond after_turn =
-        Quaterniond(Eigen::AngleAxisd(turn.norm(), turn.normalized())) * rotation(state.pose.orientation);
+    const Quaterniond after_turn = Quaterniond(Eigen::AngleAxisd(turn.norm(), turn.normalized())) * rotation(state.pose.orientation);
     state = at(vector(state.pose.position) + step, after_turn);
     const DevicePose after = map.to_scene(state);
     const Vector3d scene_step = vector(after.position) - vector(before.position);
@@ -113,8 +105,7 @@ BOOST_AUTO_TEST_CASE(the_work_of_the_hand_is_that_of_the_scene_divided_by_the_sc
 
     const Vector3d force = random.point();
     const Vector3d torque = random.point();
-    const DeviceWrench felt =
-        map.to_device({{force.x(), force.y(), force.z()}, {torque.x(), torque.y(), torque.z()}});
+    const DeviceWrench felt = map.to_device({{force.x(), force.y(), force.z()}, {torque.x(), torque.y(), torque.z()}});
     const double scene_work = force.dot(scene_step) + torque.dot(scene_angle);
     const double hand_work = vector(felt.force).dot(step) + vector(felt.torque).dot(turn);
     BOOST_TEST(std::abs(scene_work - scale * hand_work) < 1e-14 * (1 + scale) * 100);
@@ -128,11 +119,9 @@ BOOST_AUTO_TEST_CASE(the_stiffness_that_is_corrected_by_the_scale_is_the_one_tha
     const double kr = map.scene_rotational_stiffness(0.3);
     const double displacement = 1e-3;  // of the hand [m]
     const DevicePose pose = map.to_scene(at({displacement, 0, 0}, Quaterniond::Identity()));
-    BOOST_TEST(map.to_device({{k * pose.position[0], 0, 0}, {0, 0, 0}}).force[0] == 800 * displacement,
-               boost::test_tools::tolerance(1e-12));
+    BOOST_TEST(map.to_device({{k * pose.position[0], 0, 0}, {0, 0, 0}}).force[0] == 800 * displacement, boost::test_tools::tolerance(1e-12));
     const double angle = 0.01;  // the same in the scene
-    BOOST_TEST(map.to_device({{0, 0, 0}, {kr * angle, 0, 0}}).torque[0] == 0.3 * angle,
-               boost::test_tools::tolerance(1e-12));
+    BOOST_TEST(map.to_device({{0, 0, 0}, {kr * angle, 0, 0}}).torque[0] == 0.3 * angle, boost::test_tools::tolerance(1e-12));
   }
 }
 
@@ -174,8 +163,7 @@ BOOST_AUTO_TEST_CASE(a_clutch_of_positions_lets_the_tool_go_on_turning) {
 }
 
 BOOST_AUTO_TEST_CASE(maps_that_are_none_are_refused) {
-  for (const double scale :
-       {0.0, -1.0, std::numeric_limits<double>::infinity(), std::numeric_limits<double>::quiet_NaN()}) {
+  for (const double scale : {0.0, -1.0, std::numeric_limits<double>::infinity(), std::numeric_limits<double>::quiet_NaN()}) {
     BOOST_CHECK_THROW(WorkspaceMap(turned(scale, Quaterniond::Identity())), std::invalid_argument);
   }
   BOOST_CHECK_THROW(WorkspaceMap(turned(1, Quaterniond(2, 0, 0, 0))), std::invalid_argument);

@@ -35,11 +35,9 @@ DevicePose at(double y) {
 
 BOOST_AUTO_TEST_CASE(a_linear_wall_is_continued_and_never_pulls) {
   for (const double y : {-1.9e-3, -1.5e-3, -1e-3, -0.2e-3}) {
-    BOOST_TEST(feeler::extrapolated(wall(), at(y)).force[1] == -1000 * y,
-               boost::test_tools::tolerance(1e-12));
+    BOOST_TEST(feeler::extrapolated(wall(), at(y)).force[1] == -1000 * y, boost::test_tools::tolerance(1e-12));
   }
-  for (const double y : {0.0, 1e-4, 1e-2})
-    BOOST_TEST(std::abs(feeler::extrapolated(wall(), at(y), {1.0, 1.0}).force[1]) < 1e-12);
+  for (const double y : {0.0, 1e-4, 1e-2}) BOOST_TEST(std::abs(feeler::extrapolated(wall(), at(y), {1.0, 1.0}).force[1]) < 1e-12);
 }
 
 BOOST_AUTO_TEST_CASE(a_model_is_trusted_only_so_far) {
@@ -49,8 +47,7 @@ BOOST_AUTO_TEST_CASE(a_model_is_trusted_only_so_far) {
   DevicePose turned;
   turned.orientation[0] = std::cos(0.5);
   turned.orientation[1] = std::sin(0.5);
-  BOOST_TEST(feeler::extrapolated(turn, turned, {1e-3, 0.1}).torque[0] == -0.03,
-             boost::test_tools::tolerance(1e-12));
+  BOOST_TEST(feeler::extrapolated(turn, turned, {1e-3, 0.1}).torque[0] == -0.03, boost::test_tools::tolerance(1e-12));
 }
 
 BOOST_AUTO_TEST_CASE(without_a_derivative_the_wrench_is_held) {

@@ -63,7 +63,8 @@ BOOST_AUTO_TEST_CASE(no_wish_gets_more_than_the_device_may_give_and_the_directio
         BOOST_TEST(length(pushed.force) <= 3.3 * (1 + 1e-12));
         BOOST_TEST(length(pushed.force) > 2);
         BOOST_TEST(length(pushed.torque) == 0);  // the Touch has no motors for it
-        for (int i = 0; i < 3; ++i) BOOST_TEST(pushed.force[i] / length(pushed.force) == wish.force[i] / length(wish.force), boost::test_tools::tolerance(1e-12));
+        for (int i = 0; i < 3; ++i)
+          BOOST_TEST(pushed.force[i] / length(pushed.force) == wish.force[i] / length(wish.force), boost::test_tools::tolerance(1e-12));
       }
     }
   }

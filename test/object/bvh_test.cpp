@@ -29,9 +29,7 @@ using feeler::Triangles;
 using Wide = feeler::Vector3<long double>;
 
 namespace {
-double unit(std::mt19937& bits) {
-  return double(bits()) / 2147483648.0 - 1.0;
-}
+double unit(std::mt19937& bits) { return double(bits()) / 2147483648.0 - 1.0; }
 
 /// A height field of n × n vertices over a square of side 1.
 template <class Scalar>
@@ -41,8 +39,7 @@ TriangleMesh<Scalar> terrain(int n, Scalar scale = Scalar(1), Scalar offset = Sc
   for (int i = 0; i < n; ++i)
     for (int j = 0; j < n; ++j) {
       const double x = double(i) / n, y = double(j) / n;
-      vertices.row(i * n + j) << Scalar(x), Scalar(y),
-          Scalar(0.1 * std::sin(9 * x) * std::cos(7 * y) + 0.01 * std::sin(60 * x + 50 * y));
+      vertices.row(i * n + j) << Scalar(x), Scalar(y), Scalar(0.1 * std::sin(9 * x) * std::cos(7 * y) + 0.01 * std::sin(60 * x + 50 * y));
       vertices.row(i * n + j) = (vertices.row(i * n + j) * scale).array() + offset;
     }
   int t = 0;
@@ -64,8 +61,7 @@ struct Box {
     return contains;
   }
   double half_area() const {
-    const double x = double(upper[0]) - double(lower[0]), y = double(upper[1]) - double(lower[1]),
-                 z = double(upper[2]) - double(lower[2]);
+    const double x = double(upper[0]) - double(lower[0]), y = double(upper[1]) - double(lower[1]), z = double(upper[2]) - double(lower[2]);
     return x * y + y * z + z * x;
   }
 };
@@ -169,22 +165,17 @@ double surface_area_cost(const TriangleMesh<Scalar>& mesh) {
 
 /// The same cost of a tree that halves the list along its longest side, by recursion.
 template <class Scalar>
-double median_cost(const TriangleMesh<Scalar>& mesh, std::vector<int>::iterator first,
-                   std::vector<int>::iterator last) {
+double median_cost(const TriangleMesh<Scalar>& mesh, std::vector<int>::iterator first, std::vector<int>::iterator last) {
   Eigen::AlignedBox3f box;
-  const auto middle_of = [&mesh](int t, int axis) {
-    return mesh.corners(t).row(axis).minCoeff() + mesh.corners(t).row(axis).maxCoeff();
-  };
+  const auto middle_of = [&mesh](int t, int axis) { return mesh.corners(t).row(axis).minCoeff() + mesh.corners(t).row(axis).maxCoeff(); };
   for (auto i = first; i != last; ++i)
-    for (int k = 0; k < 3; ++k)
-      box.extend((mesh.corners(*i).col(k) - mesh.bvh().origin()).template cast<float>());
+    for (int k = 0; k < 3; ++k) box.extend((mesh.corners(*i).col(k) - mesh.bvh().origin()).template cast<float>());
   const double area = Box{{box.min()[0], box.min()[1], box.min()[2]}, {box.max()[0], box.max()[1], box.max()[2]}}.half_area();
   if (last - first <= BvhLeaf::width) return area * double(1 + (last - first));
   int axis = 0;
   box.sizes().maxCoeff(&axis);
   const auto middle = first + (last - first) / 2;
-  std::nth_element(first, middle, last,
-                   [&](int a, int b) { return middle_of(a, axis) < middle_of(b, axis); });
+  std::nth_element(first, middle, last, [&](int a, int b) { return middle_of(a, axis) < middle_of(b, axis); });
   return area + median_cost(mesh, first, middle) + median_cost(mesh, middle, last);
 }
 
@@ -228,8 +219,7 @@ BOOST_AUTO_TEST_CASE(random_triangles_of_mixed_sizes_are_each_in_one_leaf) {
       const double size = std::pow(10.0, 6 * unit(bits));
       const Eigen::Vector3d place(unit(bits), unit(bits), unit(bits));
       Eigen::Matrix3d t;
-      for (int k = 0; k < 3; ++k)
-        t.col(k) = place + size * Eigen::Vector3d(unit(bits), unit(bits), unit(bits));
+      for (int k = 0; k < 3; ++k) t.col(k) = place + size * Eigen::Vector3d(unit(bits), unit(bits), unit(bits));
       triangles.push_back(t);
     }
     check_hierarchy(soup(triangles));

@@ -32,8 +32,7 @@ struct Solid {
 /// Points of a ball about the origin of which an answer is false: `expected(point)` is 1 inside, −1 outside,
 /// 0 where facets decide.
 template <class Expected>
-int false_answers(const ClosedMesh& given, double radius, std::mt19937& bits, const Expected& expected,
-                  int& inside) {
+int false_answers(const ClosedMesh& given, double radius, std::mt19937& bits, const Expected& expected, int& inside) {
   const Eigen::Quaterniond rotation = random_rotation(bits);
   const Vector translation = random_vector(bits);
   const Solid solid(given.moved(rotation, translation));
@@ -48,9 +47,7 @@ int false_answers(const ClosedMesh& given, double radius, std::mt19937& bits, co
   return count;
 }
 
-ClosedMesh cube(double half) {
-  return block(Vector::Constant(-half), Vector::Constant(half));
-}
+ClosedMesh cube(double half) { return block(Vector::Constant(-half), Vector::Constant(half)); }
 
 }  // namespace
 
@@ -58,11 +55,7 @@ BOOST_AUTO_TEST_CASE(balls_blocks_and_tori_in_random_poses_hold_what_their_formu
   std::mt19937 bits(1);
   int wrong = 0, inside = 0;
   for (int i = 0; i < 30; ++i) {
-    wrong += false_answers(
-        ball(1, 6), 1.5, bits, [](const Vector& p) { return p.norm() < 0.9 ? 1
-                                                            : p.norm() > 1 ? -1
-                                                                           : 0; },
-        inside);
+    wrong += false_answers(ball(1, 6), 1.5, bits, [](const Vector& p) { return p.norm() < 0.9 ? 1 : p.norm() > 1 ? -1 : 0; }, inside);
     wrong += false_answers(
         block({-1, -0.5, -0.1}, {1, 0.5, 0.1}), 1.2, bits,
         [](const Vector& p) {
@@ -85,8 +78,7 @@ BOOST_AUTO_TEST_CASE(balls_blocks_and_tori_in_random_poses_hold_what_their_formu
 BOOST_AUTO_TEST_CASE(rays_through_edges_and_corners_count_once) {
   // A ray along x from a point with whole coordinates meets corners, edges and diagonals of cubes of whole
   // coordinates, and runs in their faces.
-  ClosedMesh mesh =
-      block({0, 0, 0}, {2, 2, 2}).with(block({4, 1, 1}, {6, 3, 3})).with(block({8, -1, 0}, {9, 2, 1}));
+  ClosedMesh mesh = block({0, 0, 0}, {2, 2, 2}).with(block({4, 1, 1}, {6, 3, 3})).with(block({8, -1, 0}, {9, 2, 1}));
   const Solid solid(mesh);
   for (const auto& [point, is_in] : {std::pair(Vector(1, 1, 1), true),
                                      {Vector(-1, 1, 1), false},
@@ -107,26 +99,22 @@ BOOST_AUTO_TEST_CASE(crossings_are_exact_where_the_point_is_next_to_the_plane_or
   using Exact = boost::multiprecision::cpp_rational;
   std::mt19937 bits(2);
   const auto exact_cross = [](const Vector& u, const Vector& v, const Vector& p) {
-    return (Exact(v.y()) - Exact(u.y())) * (Exact(p.z()) - Exact(u.z())) -
-           (Exact(v.z()) - Exact(u.z())) * (Exact(p.y()) - Exact(u.y()));
+    return (Exact(v.y()) - Exact(u.y())) * (Exact(p.z()) - Exact(u.z())) - (Exact(v.z()) - Exact(u.z())) * (Exact(p.y()) - Exact(u.y()));
   };
   int wrong_lines = 0, wrong_planes = 0, zeros = 0;
   for (int i = 0; i < 3000; ++i) {
     Matrix3<double> triangle;
     for (int k = 0; k < 3; ++k) triangle.col(k) = magnitude(bits, -6, 1) * random_vector(bits);
-    if (i % 3 == 0)
-      triangle.col(2) = triangle.col(0) + fraction(bits) * (triangle.col(1) - triangle.col(0));  // a sliver
+    if (i % 3 == 0) triangle.col(2) = triangle.col(0) + fraction(bits) * (triangle.col(1) - triangle.col(0));  // a sliver
     if (i % 5 == 0) triangle = (triangle.array() * 16).round() / 16;
     double weight = fraction(bits), other = fraction(bits);
     if (i % 5 == 0) weight = other = 0.5;
-    const Vector point = triangle.col(0) + weight * (triangle.col(1) - triangle.col(0)) +
-                         other * (triangle.col(2) - triangle.col(0));
+    const Vector point = triangle.col(0) + weight * (triangle.col(1) - triangle.col(0)) + other * (triangle.col(2) - triangle.col(0));
     const Vector on_line = triangle.col(0) + weight * (triangle.col(1) - triangle.col(0));
     const Exact cross = exact_cross(triangle.col(0), triangle.col(1), on_line);
-    if (cross != 0)
-      wrong_lines += detail::side_of_line(triangle.col(0), triangle.col(1), on_line) != (cross > 0 ? 1 : -1);
-    wrong_lines += detail::side_of_line(triangle.col(0), triangle.col(1), on_line) !=
-                   -detail::side_of_line(triangle.col(1), triangle.col(0), on_line);
+    if (cross != 0) wrong_lines += detail::side_of_line(triangle.col(0), triangle.col(1), on_line) != (cross > 0 ? 1 : -1);
+    wrong_lines +=
+        detail::side_of_line(triangle.col(0), triangle.col(1), on_line) != -detail::side_of_line(triangle.col(1), triangle.col(0), on_line);
     Exact volume = 0;
     for (int k = 0; k < 3; ++k) {
       const auto e = [&](int axis, int corner) { return Exact(triangle(axis, corner)) - Exact(point[axis]); };
@@ -187,8 +175,7 @@ BOOST_AUTO_TEST_CASE(a_surface_whose_triangles_disagree_is_a_solid) {
 BOOST_AUTO_TEST_CASE(blocks_that_share_faces_edges_and_sheets_are_told_one_by_one) {
   const auto holds_both = [](const ClosedMesh& mesh) {
     const Solid solid(mesh);
-    return solid.contains(Vector(0.5, 0.4, 0.3)) && solid.contains(Vector(1.5, 1.4, 0.3)) &&
-           !solid.contains(Vector(0.5, 1.4, 0.3));
+    return solid.contains(Vector(0.5, 0.4, 0.3)) && solid.contains(Vector(1.5, 1.4, 0.3)) && !solid.contains(Vector(0.5, 1.4, 0.3));
   };
   const ClosedMesh left = block({0, 0, 0}, {1, 1, 1});
   BOOST_TEST(holds_both(left.with(block({1, 1, 0}, {2, 2, 1}))));                             // an edge
@@ -201,8 +188,7 @@ BOOST_AUTO_TEST_CASE(blocks_that_share_faces_edges_and_sheets_are_told_one_by_on
   BOOST_TEST(Solid(left.with(fin)).contains(Vector(0.5, 0.4, 0.3)));
 
   MeshAssembly<double> assembly;
-  for (const ClosedMesh& part : {left, fin, ball(1, 4)})
-    assembly.add(part.vertices, part.triangles, {.translation = {5, 0, 0}});
+  for (const ClosedMesh& part : {left, fin, ball(1, 4)}) assembly.add(part.vertices, part.triangles, {.translation = {5, 0, 0}});
   const TriangleMesh<double> mesh = assembly.mesh();
   BOOST_TEST(MeshInterior(mesh).contains(mesh, Vector(5.9, 0.9, 0.9)));
   BOOST_TEST(MeshInterior(mesh).contains(mesh, Vector(4.5, 0, 0)));
@@ -214,22 +200,19 @@ BOOST_AUTO_TEST_CASE(a_surface_of_one_side_and_points_and_lines_hold_nothing) {
   ClosedMesh bottle = wrapped_grid(u, v, [](int i, int j) {
     const double a = 2 * M_PI * i / u, b = 2 * M_PI * j / v;
     const double across = 3 + std::cos(a / 2) * std::sin(b) - std::sin(a / 2) * std::sin(2 * b);
-    return Vector(across * std::cos(a), across * std::sin(a),
-                  std::sin(a / 2) * std::sin(b) + std::cos(a / 2) * std::sin(2 * b));
+    return Vector(across * std::cos(a), across * std::sin(a), std::sin(a / 2) * std::sin(b) + std::cos(a / 2) * std::sin(2 * b));
   });
   for (Eigen::Index t = 2 * (u - 1) * v; t < bottle.triangles.rows(); ++t)
     for (int k = 0; k < 3; ++k)
       if (bottle.triangles(t, k) < v) bottle.triangles(t, k) = (v - bottle.triangles(t, k)) % v;
   BOOST_TEST_REQUIRE(TriangleMesh<double>(bottle.vertices, bottle.triangles).report().boundary_edges == 0);
   BOOST_TEST(Solid(bottle).interior.is_empty());
-  BOOST_TEST(Solid(ClosedMesh{Points<double>{{0, 0, 0}, {1, 0, 0}}, Triangles{{0, 1, 1}, {0, 0, 0}}})
-                 .interior.is_empty());
+  BOOST_TEST(Solid(ClosedMesh{Points<double>{{0, 0, 0}, {1, 0, 0}}, Triangles{{0, 1, 1}, {0, 0, 0}}}).interior.is_empty());
 }
 
 BOOST_AUTO_TEST_CASE(a_point_near_the_surface_is_not_enclosed) {
   const Solid solid(cube(1));
-  for (const double depth : {-1e-3, -1e-11, 0.0, 4e-12})
-    BOOST_TEST(!solid.interior.encloses(solid.mesh, Vector(0.3, 0.2, 1 - depth), 1e-11));
+  for (const double depth : {-1e-3, -1e-11, 0.0, 4e-12}) BOOST_TEST(!solid.interior.encloses(solid.mesh, Vector(0.3, 0.2, 1 - depth), 1e-11));
   BOOST_TEST(solid.interior.encloses(solid.mesh, Vector(0.3, 0.2, 1 - 2e-11), 1e-11));
 }
 

@@ -26,9 +26,7 @@ using Mesh = feeler::TriangleMesh<double>;
 using Vector = feeler::Vector3<double>;
 
 namespace {
-double unit(std::mt19937& bits) {
-  return double(bits()) / 2147483648.0 - 1.0;
-}
+double unit(std::mt19937& bits) { return double(bits()) / 2147483648.0 - 1.0; }
 
 Points<double> points(std::initializer_list<Vector> list) {
   Points<double> result(Eigen::Index(list.size()), 3);
@@ -49,32 +47,17 @@ Points<double> cube_points() {
   return result;
 }
 Triangles cube_triangles() {
-  return rows({{0, 2, 3},
-               {0, 3, 1},
-               {4, 5, 7},
-               {4, 7, 6},
-               {0, 1, 5},
-               {0, 5, 4},
-               {2, 6, 7},
-               {2, 7, 3},
-               {0, 4, 6},
-               {0, 6, 2},
-               {1, 3, 7},
-               {1, 7, 5}});
+  return rows({{0, 2, 3}, {0, 3, 1}, {4, 5, 7}, {4, 7, 6}, {0, 1, 5}, {0, 5, 4}, {2, 6, 7}, {2, 7, 3}, {0, 4, 6}, {0, 6, 2}, {1, 3, 7}, {1, 7, 5}});
 }
 /// Two triangles over the edge (0,0,0)–(0,1,0), whose far corners are at the height given; normals up.
-Mesh fold(double height) {
-  return Mesh(points({{0, 0, 0}, {0, 1, 0}, {1, 0.5, height}, {-1, 0.5, height}}),
-              rows({{1, 0, 2}, {0, 1, 3}}));
-}
+Mesh fold(double height) { return Mesh(points({{0, 0, 0}, {0, 1, 0}, {1, 0.5, height}, {-1, 0.5, height}}), rows({{1, 0, 2}, {0, 1, 3}})); }
 /// A bumpy sheet around the origin, of six triangles around vertex 0; without one of them where that is missing.
 Mesh fan(const std::array<double, 6>& heights, int missing = 6) {
   Points<double> p(7, 3);
   Triangles t(6, 3);
   p.row(0).setZero();
   for (int i = 0; i < 6; ++i) {
-    p.row(i + 1) << std::cos(i * 1.0471975511965976), std::sin(i * 1.0471975511965976),
-        heights[std::size_t(i)];
+    p.row(i + 1) << std::cos(i * 1.0471975511965976), std::sin(i * 1.0471975511965976), heights[std::size_t(i)];
     t.row(i) << 0, i + 1, (i + 1) % 6 + 1;
   }
   if (missing < 6) {
@@ -93,12 +76,10 @@ double distance(const Mesh& mesh, const Vector& p) {
   double best = std::numeric_limits<double>::infinity();
   for (int t = 0; t < mesh.triangle_count(); ++t) {
     const Eigen::Matrix3d c = mesh.corners(t);
-    for (int k = 0; k < 3; ++k)
-      best = std::min(best, (closest_on_segment(c.col(k), c.col((k + 1) % 3), p) - p).norm());
+    for (int k = 0; k < 3; ++k) best = std::min(best, (closest_on_segment(c.col(k), c.col((k + 1) % 3), p) - p).norm());
     const Vector n = (c.col(1) - c.col(0)).cross(c.col(2) - c.col(0)).normalized();
     bool is_over = true;
-    for (int k = 0; k < 3; ++k)
-      is_over = is_over && n.dot((c.col((k + 1) % 3) - c.col(k)).cross(p - c.col(k))) >= 0;
+    for (int k = 0; k < 3; ++k) is_over = is_over && n.dot((c.col((k + 1) % 3) - c.col(k)).cross(p - c.col(k))) >= 0;
     if (is_over) best = std::min(best, std::abs(n.dot(p - c.col(0))));
   }
   return best;
@@ -167,8 +148,7 @@ BOOST_AUTO_TEST_CASE(knife_edge_of_a_sheet_with_two_sides_is_convex) {
 
 BOOST_AUTO_TEST_CASE(saddle_vertex_is_mixed_and_tip_and_pit_are_not) {
   const auto middle = [](double height, double wave) {
-    const Mesh mesh =
-        fan({height + wave, height - wave, height + wave, height - wave, height + wave, height - wave});
+    const Mesh mesh = fan({height + wave, height - wave, height + wave, height - wave, height + wave, height - wave});
     return mesh.topology().vertex_convexity(0);
   };
   BOOST_TEST((middle(-0.5, 0) == Convexity::convex));
@@ -184,13 +164,11 @@ BOOST_AUTO_TEST_CASE(open_sheet_has_a_boundary) {
   BOOST_TEST(mesh.topology().neighbour(0, 1) == MeshTopology::boundary);
   BOOST_TEST(mesh.topology().neighbour(0, 0) == 5);
   BOOST_TEST(mesh.topology().neighbour(0, 2) == 1);
-  BOOST_TEST(contains(to_string(mesh.report()),
-                      "6 triangles on 7 vertices; not a closed surface. It has 6 open edges."));
+  BOOST_TEST(contains(to_string(mesh.report()), "6 triangles on 7 vertices; not a closed surface. It has 6 open edges."));
 }
 
 BOOST_AUTO_TEST_CASE(three_triangles_at_an_edge_are_non_manifold) {
-  const Mesh mesh(points({{0, 0, 0}, {0, 1, 0}, {1, 0, 0}, {-1, 0, 0}, {0, 0, 1}}),
-                  rows({{0, 1, 2}, {1, 0, 3}, {0, 1, 4}}));
+  const Mesh mesh(points({{0, 0, 0}, {0, 1, 0}, {1, 0, 0}, {-1, 0, 0}, {0, 0, 1}}), rows({{0, 1, 2}, {1, 0, 3}, {0, 1, 4}}));
   BOOST_TEST(mesh.report().non_manifold_edges == 1);
   BOOST_TEST(mesh.report().non_manifold_vertices == 2);
   for (int t = 0; t < 3; ++t) {
@@ -227,8 +205,7 @@ BOOST_AUTO_TEST_CASE(duplicate_degenerate_and_inverted_triangles_are_kept_and_re
   BOOST_TEST(mesh.report().non_manifold_edges == 3);
   BOOST_TEST(mesh.normal(14).isZero(0));
   for (int i = 0; i < 16; ++i)
-    for (int k = 0; k < 3; ++k)
-      BOOST_TEST((mesh.corners(i).col(k) == cube_points().row(t(i, k)).transpose()));
+    for (int k = 0; k < 3; ++k) BOOST_TEST((mesh.corners(i).col(k) == cube_points().row(t(i, k)).transpose()));
 
   Triangles inverted = cube_triangles();
   std::swap(inverted(4, 0), inverted(4, 1));
@@ -237,9 +214,7 @@ BOOST_AUTO_TEST_CASE(duplicate_degenerate_and_inverted_triangles_are_kept_and_re
 
 BOOST_AUTO_TEST_CASE(triangle_is_degenerate_only_to_rounding_at_any_size) {
   for (const double scale : {1e-150, 1e-6, 1.0, 1e6, 1e150}) {
-    const auto one = [scale](double height) {
-      return Mesh(points({{0, 0, 0}, {scale, 0, 0}, {scale / 3, scale * height, 0}}), rows({{0, 1, 2}}));
-    };
+    const auto one = [scale](double height) { return Mesh(points({{0, 0, 0}, {scale, 0, 0}, {scale / 3, scale * height, 0}}), rows({{0, 1, 2}})); };
     BOOST_TEST(one(0).report().degenerate_triangles == 1);
     BOOST_TEST(one(1e-12).report().degenerate_triangles == 0);
     BOOST_TEST((one(1e-12).normal(0) - Vector(0, 0, 1)).norm() < 1e-15);
@@ -289,8 +264,7 @@ BOOST_AUTO_TEST_CASE(cones_agree_with_the_closest_point) {
         if (!loosely) BOOST_TEST(!is_closest);
         inside += strictly;
       };
-      check(Vector::Zero(), any, feeler::vertex_cone_contains<double>(mesh, 0, any, -1e-3),
-            feeler::vertex_cone_contains<double>(mesh, 0, any, 1e-3));
+      check(Vector::Zero(), any, feeler::vertex_cone_contains<double>(mesh, 0, any, -1e-3), feeler::vertex_cone_contains<double>(mesh, 0, any, 1e-3));
       for (int triangle = 0; triangle < 6; ++triangle)
         for (int k = 0; k < 3; ++k) {
           const Eigen::Matrix3d c = mesh.corners(triangle);
@@ -418,10 +392,8 @@ BOOST_AUTO_TEST_CASE(float_and_long_double_meshes_have_the_same_topology) {
   BOOST_TEST(narrow.report().is_closed_manifold());
   BOOST_TEST(wide.report().is_closed_manifold());
   for (int t = 0; t < 12; ++t)
-    for (int k = 0; k < 3; ++k)
-      BOOST_TEST((narrow.topology().edge_convexity(t, k) == wide.topology().edge_convexity(t, k)));
-  BOOST_TEST(
-      feeler::edge_cone_contains<float>(narrow, 0, 0, feeler::Vector3<float>(-1, 0, -1).normalized(), 0.0F));
+    for (int k = 0; k < 3; ++k) BOOST_TEST((narrow.topology().edge_convexity(t, k) == wide.topology().edge_convexity(t, k)));
+  BOOST_TEST(feeler::edge_cone_contains<float>(narrow, 0, 0, feeler::Vector3<float>(-1, 0, -1).normalized(), 0.0F));
 }
 
 BOOST_AUTO_TEST_SUITE_END()

@@ -16,8 +16,7 @@ BOOST_AUTO_TEST_CASE(every_triangle_whose_box_meets_the_box_is_visited_once) {
   BOOST_TEST_MESSAGE("seed " << seed);
   std::mt19937 bits(seed);
   for (int round = 0; round < 20; ++round) {
-    const Eigen::Vector3d offset = round % 2 == 0 ? Eigen::Vector3d(Eigen::Vector3d::Zero())
-                                                  : Eigen::Vector3d(1e3 * random_vector(bits));
+    const Eigen::Vector3d offset = round % 2 == 0 ? Eigen::Vector3d(Eigen::Vector3d::Zero()) : Eigen::Vector3d(1e3 * random_vector(bits));
     const int count = 1 + below(bits, 400);
     feeler::Points<double> vertices(3 * count, 3);
     feeler::Triangles triangles(count, 3);
@@ -57,9 +56,7 @@ BOOST_AUTO_TEST_CASE(a_visit_that_says_no_is_the_last) {
   for (int i = 0; i < 5; ++i) triangles.row(i) << 0, 1, 2;
   const feeler::TriangleMesh<double> mesh(vertices, triangles);
   int visits = 0;
-  feeler::visit_triangles_in<double>(mesh,
-                                     Eigen::AlignedBox3d(Eigen::Vector3d::Zero(), Eigen::Vector3d::Ones()),
-                                     [&](int) { return ++visits < 2; });
+  feeler::visit_triangles_in<double>(mesh, Eigen::AlignedBox3d(Eigen::Vector3d::Zero(), Eigen::Vector3d::Ones()), [&](int) { return ++visits < 2; });
   BOOST_TEST(visits == 2);
 }
 

@@ -56,7 +56,8 @@ void check_boxes_and_vertices(const TriangleMesh<double>& mesh) {
     for (int k = 0; k < 3; ++k) {
       const auto& corners = mesh.triangle(t);
       walls_at[std::size_t(corners[std::size_t(k)])].insert(walls.of_triangle(t));
-      if (mesh.topology().neighbour(t, k) < 0) is_rim[std::size_t(corners[std::size_t(k)])] = is_rim[std::size_t(corners[std::size_t((k + 1) % 3)])] = true;
+      if (mesh.topology().neighbour(t, k) < 0)
+        is_rim[std::size_t(corners[std::size_t(k)])] = is_rim[std::size_t(corners[std::size_t((k + 1) % 3)])] = true;
     }
   }
   for (int v = 0; v < mesh.vertex_count(); ++v) {

@@ -79,21 +79,18 @@ BOOST_AUTO_TEST_CASE(rows_are_the_derivatives_of_their_gaps) {
     const Pose<double> pose{0.05 * random_vector(bits), random_rotation(bits)};
     const auto kind = FeaturePair(below(bits, 3));
     const int features = kind == FeaturePair::vertex_face ? 8 : kind == FeaturePair::face_vertex ? 6 : 12;
-    const CandidateConstraint constraint{kind, below(bits, features), below(bits, 4), below(bits, 3),
-                                         below(bits, 2) == 0};
+    const CandidateConstraint constraint{kind, below(bits, features), below(bits, 4), below(bits, 3), below(bits, 2) == 0};
     const auto row = row_of(constraint, tool, mesh, pose, pose.translation);
     if (kind == FeaturePair::edge_edge) {
       const double sine = row.object_edge.cross(row.tool_edge).norm();
       // Near parallel, and where the way out lies along the faces, the plane turns fast or flips.
-      const Vector out = feeler::detail::out_of_ridge<double>(mesh, constraint.triangle, constraint.corner,
-                                                              constraint.is_behind ? -1 : 1);
+      const Vector out = feeler::detail::out_of_ridge<double>(mesh, constraint.triangle, constraint.corner, constraint.is_behind ? -1 : 1);
       if (sine < 0.2 || std::abs(row.normal.dot(out)) < 0.1) continue;
     }
     ++checked;
     for (int k = 0; k < 6; ++k) {
       const auto gap = [&](double h) {
-        const Pose<double> moved =
-            feeler::moved(pose, feeler::Twist<double>::from_vector(h * Vector6<double>::Unit(k)));
+        const Pose<double> moved = feeler::moved(pose, feeler::Twist<double>::from_vector(h * Vector6<double>::Unit(k)));
         return row_of(constraint, tool, mesh, moved, moved.translation).gap;
       };
       BOOST_TEST(std::abs((gap(1e-6) - gap(-1e-6)) / 2e-6 - row.gradient()[k]) < 1e-7);

@@ -23,8 +23,7 @@ namespace {
 constexpr CandidateOptions as_written{};
 constexpr CandidateOptions boxed{.local_solution = LocalSolution::inside_box};
 constexpr CandidateOptions unboxed{.local_solution = LocalSolution::free};
-constexpr CandidateOptions repeated{
-    .local_solution = LocalSolution::free, .increments = Increments::rotation_vector, .linearisations = 4};
+constexpr CandidateOptions repeated{.local_solution = LocalSolution::free, .increments = Increments::rotation_vector, .linearisations = 4};
 constexpr CandidateOptions certified{.local_solution = LocalSolution::free,
                                      .collision_detection = CollisionDetection::certificate,
                                      .increments = Increments::rotation_vector,
@@ -56,8 +55,7 @@ Comparison compare(const scenes::Scene& scene, int ticks) {
       const Pose<double> haptic = scene.motion(i * 1e-3);
       const auto& tick = renderer.update(haptic);
       BOOST_TEST(is_valid(tick, object.triangle_count()));
-      result.farthest = std::max(
-          result.farthest, pose_error(reference.update(haptic).graphic_pose, tick.graphic_pose).at(0.02));
+      result.farthest = std::max(result.farthest, pose_error(reference.update(haptic).graphic_pose, tick.graphic_pose).at(0.02));
       result.converged += tick.converged() ? 1 : 0;
       if (i % 5 == 0) result.deepest = std::max(result.deepest, witness.depth_at(tick.graphic_pose));
     }
@@ -97,8 +95,7 @@ BOOST_AUTO_TEST_CASE(one_linearisation_in_the_cavity_misses_by_tens_of_nanometre
   BOOST_TEST(often < 1e-12);
 }
 
-BOOST_AUTO_TEST_CASE(
-    the_box_of_eq_5_makes_a_tool_stick_on_a_slope_and_without_it_it_slides_to_the_projection) {
+BOOST_AUTO_TEST_CASE(the_box_of_eq_5_makes_a_tool_stick_on_a_slope_and_without_it_it_slides_to_the_projection) {
   // A vertex that may turn freely about itself: the closed form is the projection of the haptic point.
   const double a = 30 * std::numbers::pi / 180;
   Points<double> vertices(4, 3);
@@ -116,8 +113,7 @@ BOOST_AUTO_TEST_CASE(
     Vector3<double> haptic;
     for (int i = 0; i <= 200; ++i) {
       // 2 mm in, then 10 mm level into the slope: the tool has to rise, which the device does not.
-      haptic = (1e-3 - 3e-3 * std::min(1.0, i / 50.0)) * normal +
-               0.01 * std::clamp((i - 50) / 100.0, 0.0, 1.0) * Vector3<double>::UnitX();
+      haptic = (1e-3 - 3e-3 * std::min(1.0, i / 50.0)) * normal + 0.01 * std::clamp((i - 50) / 100.0, 0.0, 1.0) * Vector3<double>::UnitX();
       renderer.update({haptic, Quaternion<double>::Identity()});
     }
     const Vector3<double> projection = haptic - normal.dot(haptic) * normal;
@@ -170,8 +166,7 @@ BOOST_AUTO_TEST_CASE(with_the_certificate_a_line_lands_on_a_ridge_and_passes_on_
 }
 
 BOOST_AUTO_TEST_CASE(with_the_certificate_a_hostile_device_never_makes_the_tool_penetrate) {
-  for (const auto& scene :
-       {scenes::steps(), scenes::steps_with_prism(), scenes::cavity(1e-3), scenes::terrain(12)}) {
+  for (const auto& scene : {scenes::steps(), scenes::steps_with_prism(), scenes::cavity(1e-3), scenes::terrain(12)}) {
     BOOST_TEST_CONTEXT(scene.name) {
       const TriangleMesh<double> object(scene.vertices, scene.triangles);
       with_tool_of(scene, [&](const auto& tool) {
@@ -215,11 +210,9 @@ BOOST_AUTO_TEST_CASE(every_choice_leaves_valid_output_and_counts_what_it_drops) 
     BOOST_TEST_CONTEXT(scene.name) {
       const TriangleMesh<double> object(scene.vertices, scene.triangles);
       with_tool_of(scene, [&](const auto& tool) {
-        dropped +=
-            check(renderer_for<as_written>(object, tool, scene.settings()), scene, object.triangle_count());
+        dropped += check(renderer_for<as_written>(object, tool, scene.settings()), scene, object.triangle_count());
         dropped += check(renderer_for<boxed>(object, tool, scene.settings()), scene, object.triangle_count());
-        dropped +=
-            check(renderer_for<unboxed>(object, tool, scene.settings()), scene, object.triangle_count());
+        dropped += check(renderer_for<unboxed>(object, tool, scene.settings()), scene, object.triangle_count());
       });
     }
   }

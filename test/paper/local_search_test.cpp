@@ -22,8 +22,7 @@ namespace {
 /// A roof: two slopes of 45° that meet in a ridge along y at z = 0, or a valley where `sign` is −1.
 feeler::TriangleMesh<double> roof(double sign) {
   feeler::Points<double> vertices(6, 3);
-  vertices << -0.1, -0.1, -0.1 * sign, 0, -0.1, 0, 0.1, -0.1, -0.1 * sign, -0.1, 0.1, -0.1 * sign, 0, 0.1, 0,
-      0.1, 0.1, -0.1 * sign;
+  vertices << -0.1, -0.1, -0.1 * sign, 0, -0.1, 0, 0.1, -0.1, -0.1 * sign, -0.1, 0.1, -0.1 * sign, 0, 0.1, 0, 0.1, 0.1, -0.1 * sign;
   feeler::Triangles triangles(4, 3);
   triangles << 0, 1, 4, 0, 4, 3, 1, 2, 5, 1, 5, 4;
   return {vertices, triangles};

@@ -58,8 +58,7 @@ void check(unsigned seed) {
     for (const Eigen::Vector3d& weights : {Eigen::Vector3d(1, 1, 1), Eigen::Vector3d(1, 3, 10)}) {
       const feeler::Metric<double> metric{Eigen::Vector3d(1, 1, 1), 1e-4 * weights};
       BOOST_TEST(coordinates.gradient(metric, base).norm() < 1e-15);
-      const Vector6<double> newton =
-          -coordinates.hessian(metric, target).ldlt().solve(coordinates.gradient(metric, target));
+      const Vector6<double> newton = -coordinates.hessian(metric, target).ldlt().solve(coordinates.gradient(metric, target));
       BOOST_TEST((newton - step).norm() < 1e-12);
     }
   }
@@ -67,17 +66,11 @@ void check(unsigned seed) {
 
 }  // namespace
 
-BOOST_AUTO_TEST_CASE(rotation_vectors_are_their_own_inverse_and_have_the_rows_of_a_twist) {
-  check<Increments::rotation_vector>(1);
-}
-BOOST_AUTO_TEST_CASE(euler_angles_are_their_own_inverse_and_their_rows_are_derivatives) {
-  check<Increments::euler_angles>(2);
-}
+BOOST_AUTO_TEST_CASE(rotation_vectors_are_their_own_inverse_and_have_the_rows_of_a_twist) { check<Increments::rotation_vector>(1); }
+BOOST_AUTO_TEST_CASE(euler_angles_are_their_own_inverse_and_their_rows_are_derivatives) { check<Increments::euler_angles>(2); }
 
 BOOST_AUTO_TEST_CASE(euler_angles_go_the_short_way_past_half_a_turn) {
-  const auto turned = [](double angle) {
-    return Pose<double>{{}, Eigen::Quaterniond(Eigen::AngleAxisd(angle, Eigen::Vector3d::UnitZ()))};
-  };
+  const auto turned = [](double angle) { return Pose<double>{{}, Eigen::Quaterniond(Eigen::AngleAxisd(angle, Eigen::Vector3d::UnitZ()))}; };
   const double pi = std::numbers::pi;
   const StepCoordinates<double, Increments::euler_angles> coordinates(turned(pi - 0.01));
   BOOST_TEST(std::abs(coordinates.of(turned(-pi + 0.01))[5] - 0.02) < 1e-12);

@@ -19,9 +19,7 @@ using namespace feeler_test;
 
 namespace {
 
-WideVector wide_of(const Vector& v) {
-  return v.cast<WideReal>();
-}
+WideVector wide_of(const Vector& v) { return v.cast<WideReal>(); }
 
 /// Distance of the origin from the hull of up to four points by its faces, and 0 inside a tetrahedron.
 WideReal distance_of_origin(const std::vector<Vector>& points) {
@@ -97,8 +95,7 @@ BOOST_AUTO_TEST_CASE(no_point_of_a_dense_sample_of_the_simplex_is_closer) {
     constexpr int n = 60;
     double least = std::numeric_limits<double>::infinity();
     for (int a = 0; a <= n; ++a)
-      for (int b = 0; a + b <= n; ++b)
-        least = std::min(least, ((a * points[0] + b * points[1] + (n - a - b) * points[2]) / n).norm());
+      for (int b = 0; a + b <= n; ++b) least = std::min(least, ((a * points[0] + b * points[1] + (n - a - b) * points[2]) / n).norm());
     BOOST_TEST(simplex.closest.norm() <= least + 1e-15);
     BOOST_TEST(least <= simplex.closest.norm() + 4.0 / n);
   }
@@ -119,8 +116,7 @@ BOOST_AUTO_TEST_CASE(a_tetrahedron_whose_last_point_came_last_is_reduced_to_the_
     feeler::detail::reduce_to_closest(triangle);
     if (triangle.size < 3) continue;
     const Vector towards = -triangle.closest;
-    points.push_back(triangle.closest +
-                     magnitude(bits, -3, 0.5) * (towards.normalized() + 0.9 * random_vector(bits)));
+    points.push_back(triangle.closest + magnitude(bits, -3, 0.5) * (towards.normalized() + 0.9 * random_vector(bits)));
     if ((points[3] - triangle.closest).dot(towards) <= 0) continue;
     Simplex<double> simplex = simplex_of(points);
     const bool is_outside = feeler::detail::reduce_to_closest(simplex);
@@ -157,8 +153,7 @@ BOOST_AUTO_TEST_CASE(two_equal_corners_leave_the_edge_to_the_third) {
   // order.
   for (const Vector& twice : {Vector(1, 1, 0), Vector(1, -2, 0)}) {
     const Vector once(1, twice.y() > 0 ? -2 : 1, 0);
-    for (const auto& points :
-         {std::vector<Vector>{twice, twice, once}, {twice, once, twice}, {once, twice, twice}}) {
+    for (const auto& points : {std::vector<Vector>{twice, twice, once}, {twice, once, twice}, {once, twice, twice}}) {
       Simplex<double> simplex = simplex_of(points);
       BOOST_TEST_REQUIRE(feeler::detail::reduce_to_closest(simplex));
       BOOST_TEST((simplex.closest - Vector::UnitX()).norm() < 1e-15);
@@ -169,8 +164,7 @@ BOOST_AUTO_TEST_CASE(two_equal_corners_leave_the_edge_to_the_third) {
 
 BOOST_AUTO_TEST_CASE(degenerate_simplices_give_a_point_of_theirs) {
   const Vector a(1, 0, 0), b(2, 0, 0), c(3, 0, 0);
-  for (const auto& points :
-       {std::vector<Vector>{a, a}, {a, a, a}, {a, b, c}, {c, b, a}, {b, a, a}, {b, c, a}, {a, b, c, b}}) {
+  for (const auto& points : {std::vector<Vector>{a, a}, {a, a, a}, {a, b, c}, {c, b, a}, {b, a, a}, {b, c, a}, {a, b, c, b}}) {
     Simplex<double> simplex = simplex_of(points);
     BOOST_TEST_REQUIRE(feeler::detail::reduce_to_closest(simplex));
     BOOST_TEST((simplex.closest - a).norm() < 1e-15);

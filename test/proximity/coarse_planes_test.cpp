@@ -139,7 +139,8 @@ BOOST_AUTO_TEST_CASE(what_passes_is_clear_and_what_is_clear_passes) {
     const BvhNode node = random_node(bits, size);
     const auto passed = coarse.passed(std::array{&node}, planes.count)[0];
     for (std::size_t i = 0; i < passed.size(); ++i) {
-      const std::array<float, 3> lower{node.lower[0][i], node.lower[1][i], node.lower[2][i]}, upper{node.upper[0][i], node.upper[1][i], node.upper[2][i]};
+      const std::array<float, 3> lower{node.lower[0][i], node.lower[1][i], node.lower[2][i]},
+          upper{node.upper[0][i], node.upper[1][i], node.upper[2][i]};
       if (node.child[i] == 0) {
         BOOST_TEST(passed[i] != 0);
         continue;

@@ -9,8 +9,8 @@
 
 BOOST_AUTO_TEST_SUITE(gjk)
 
-using feeler::WitnessFeatures;
 using feeler::ClosestPoints;
+using feeler::WitnessFeatures;
 using feeler::test::closest_features;
 using feeler::test::WidePair;
 using feeler::test::WideReal;
@@ -28,8 +28,7 @@ struct Worst {
 
 /// Compares one answer with the brute force; both in the tool frame.
 template <class Tool>
-void check(const Tool& tool, const Eigen::Matrix3d& corners, const ClosestPoints<double>& found,
-           const WidePair& expected, Worst& worst) {
+void check(const Tool& tool, const Eigen::Matrix3d& corners, const ClosestPoints<double>& found, const WidePair& expected, Worst& worst) {
   BOOST_TEST_REQUIRE(!found.is_touching);
   const WideTool wide_tool(tool);
   const WideReal size = 0.2L + WideReal(corners.cwiseAbs().maxCoeff());
@@ -40,15 +39,13 @@ void check(const Tool& tool, const Eigen::Matrix3d& corners, const ClosestPoints
   BOOST_TEST(std::abs(WideReal(found.distance) - shown) <= 1e-15L * size);
   BOOST_TEST(WideReal(found.distance) <= expected.distance + 1e-15L * size);
   // The direction of a gap g is known to eps·size/g, and tilts a body of that size by as much.
-  const WideReal rounding = WideReal(std::numeric_limits<double>::epsilon()) * size *
-                            std::max(WideReal(1), size / expected.distance);
+  const WideReal rounding = WideReal(std::numeric_limits<double>::epsilon()) * size * std::max(WideReal(1), size / expected.distance);
   worst.distance = std::max(worst.distance, (expected.distance - WideReal(found.distance)) / rounding);
   // The points are as far apart as they may be, and lie in the shapes.
   const WideVector x = found.tool_point.cast<WideReal>(), y = found.triangle_point.cast<WideReal>();
   worst.points = std::max(worst.points, std::abs((x - y).norm() - expected.distance) / rounding);
   const auto t = wide(corners);
-  worst.features = std::max(worst.features,
-                            (feeler::test::closest_on_wide_triangle(y, t[0], t[1], t[2]) - y).norm() / size);
+  worst.features = std::max(worst.features, (feeler::test::closest_on_wide_triangle(y, t[0], t[1], t[2]) - y).norm() / size);
   for (const auto& face : wide_tool.faces) {
     const auto at = [&](std::size_t i) { return wide_tool.vertices[std::size_t(face[i])]; };
     const WideVector outward = (at(1) - at(0)).cross(at(2) - at(0)).normalized();
@@ -80,8 +77,7 @@ Worst check_random_pairs(unsigned seed, int count, const MakeTool& make_tool) {
       check(tool, corners, feeler::gjk(tool, corners, warm, touching), expected, worst);
     }
   }
-  BOOST_TEST_MESSAGE("worst: distance " << worst.distance << " roundings, points " << worst.points
-                                        << ", outside their shapes " << worst.features);
+  BOOST_TEST_MESSAGE("worst: distance " << worst.distance << " roundings, points " << worst.points << ", outside their shapes " << worst.features);
   return worst;
 }
 
@@ -93,12 +89,8 @@ void check_worst(const Worst& worst) {
 
 }  // namespace
 
-BOOST_AUTO_TEST_CASE(distance_of_a_segment_is_that_of_brute_force_from_any_start) {
-  check_worst(check_random_pairs(1, 4000, random_segment));
-}
-BOOST_AUTO_TEST_CASE(distance_of_a_box_is_that_of_brute_force_from_any_start) {
-  check_worst(check_random_pairs(2, 4000, random_box));
-}
+BOOST_AUTO_TEST_CASE(distance_of_a_segment_is_that_of_brute_force_from_any_start) { check_worst(check_random_pairs(1, 4000, random_segment)); }
+BOOST_AUTO_TEST_CASE(distance_of_a_box_is_that_of_brute_force_from_any_start) { check_worst(check_random_pairs(2, 4000, random_box)); }
 
 BOOST_AUTO_TEST_CASE(a_sphere_beside_an_edge_by_a_hair_is_as_far_from_a_large_triangle_as_its_plane) {
   const feeler::Sphere<double> ball(0.005);
@@ -130,8 +122,7 @@ BOOST_AUTO_TEST_CASE(closest_points_of_a_swept_tool_are_those_of_its_core_and_th
   }
 }
 BOOST_AUTO_TEST_CASE(distance_of_a_hull_is_that_of_brute_force_from_any_start) {
-  check_worst(
-      check_random_pairs(3, 2000, [](std::mt19937& bits) { return random_hull(bits, 4 + below(bits, 28)); }));
+  check_worst(check_random_pairs(3, 2000, [](std::mt19937& bits) { return random_hull(bits, 4 + below(bits, 28)); }));
 }
 
 BOOST_AUTO_TEST_CASE(faces_flat_on_each_other_keep_the_normal_of_the_face) {
@@ -208,8 +199,9 @@ BOOST_AUTO_TEST_CASE(shapes_that_overlapped_start_from_there_though_they_overlap
     cold_apart += supports_of(moved, {});
     warm_apart += supports_of(moved, found.features);
   }
-  BOOST_TEST_MESSAGE("support calls, cold and warm: " << double(cold) / overlapping << ", " << double(warm) / overlapping << "; no longer overlapping "
-                                                      << double(cold_apart) / apart << ", " << double(warm_apart) / apart);
+  BOOST_TEST_MESSAGE("support calls, cold and warm: " << double(cold) / overlapping << ", " << double(warm) / overlapping
+                                                      << "; no longer overlapping " << double(cold_apart) / apart << ", "
+                                                      << double(warm_apart) / apart);
   BOOST_TEST(overlapping > 300);
   BOOST_TEST(apart > 300);
   BOOST_TEST(warm * 3 < cold * 2);

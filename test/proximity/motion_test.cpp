@@ -33,18 +33,15 @@ BOOST_AUTO_TEST_CASE(poses_and_frames_are_those_of_constant_velocities_in_long_d
       // Far from the origin the pose has the digits of its size, the frame those of the motion.
       BOOST_TEST((pose.translation - moving.origin() - frame.shift).norm() < 1e-12);
       const Vector corner = random.tool.vertex(below(bits, 8));
-      const WideVector in_world =
-          expected.translation + expected.rotation * corner.cast<WideReal>() - random.wide().start;
+      const WideVector in_world = expected.translation + expected.rotation * corner.cast<WideReal>() - random.wide().start;
       BOOST_TEST((moving.to_world(corner, frame).cast<WideReal>() - in_world).norm() < 1e-15L);
       // To the tool's frame and back.
       const Eigen::Matrix3d corners = random_triangle(bits, Shape::ordinary);
       const Eigen::Matrix3d in_tool = moving.in_tool(corners, frame);
-      for (int k = 0; k < 3; ++k)
-        BOOST_TEST((moving.to_world(in_tool.col(k), frame) - corners.col(k)).norm() < 1e-15);
+      for (int k = 0; k < 3; ++k) BOOST_TEST((moving.to_world(in_tool.col(k), frame) - corners.col(k)).norm() < 1e-15);
       const Vector normal = random_direction(bits);
       double lowest = 1e9;
-      for (int v = 0; v < 8; ++v)
-        lowest = std::min(lowest, normal.dot(moving.to_world(random.tool.vertex(v), frame)));
+      for (int v = 0; v < 8; ++v) lowest = std::min(lowest, normal.dot(moving.to_world(random.tool.vertex(v), frame)));
       BOOST_TEST(std::abs(moving.lowest(normal, frame) - lowest) < 1e-15);
     }
   }
@@ -82,8 +79,7 @@ void check_sagittas(unsigned seed, const MakeTool& make_tool, WideReal used) {
     const auto moving = random.moving();
     const auto wide_motion = random.wide();
     const double from = i % 2 == 0 ? 0 : fraction(bits) / 2, to = i % 2 == 0 ? 1 : from + fraction(bits) / 2;
-    const Vector normal = i % 3 == 0 ? Vector(random.motion.linear.cross(random.motion.angular).normalized())
-                                     : random_direction(bits);
+    const Vector normal = i % 3 == 0 ? Vector(random.motion.linear.cross(random.motion.angular).normalized()) : random_direction(bits);
     const Vector object = 0.3 * random_vector(bits);  // relative to the start
     const WideVector n = normal.cast<WideReal>();
     const auto pose_from = wide_motion.pose_at(WideReal(from)), pose_to = wide_motion.pose_at(WideReal(to));
@@ -94,8 +90,7 @@ void check_sagittas(unsigned seed, const MakeTool& make_tool, WideReal used) {
       const auto turn = wide_motion.rotation_at(WideReal(from)) * wide_motion.rotation_at(t).conjugate();
       return n.dot(turn * relative);
     };
-    const double reach =
-        std::max((object - from * random.motion.linear).norm(), (object - to * random.motion.linear).norm());
+    const double reach = std::max((object - from * random.motion.linear).norm(), (object - to * random.motion.linear).norm());
     const WideReal sagitta_of_object = WideReal(moving.sagitta_of_object(normal, to - from, reach));
     const WideTool tool(random.tool);
     std::vector<WideReal> start_heights, end_heights;
@@ -111,15 +106,13 @@ void check_sagittas(unsigned seed, const MakeTool& make_tool, WideReal used) {
         const WideReal height = n.dot(pose.translation + pose.rotation * tool.vertices[v]);
         const WideReal strays = std::abs(height - (1 - u) * start_heights[v] - u * end_heights[v]);
         // Not the sagitta alone: its parabola.
-        if (strays > sagitta * 4 * u * (1 - u) + 1e-16L)
-          BOOST_ERROR("tool point strays by " << strays << " of " << sagitta << " at " << u);
+        if (strays > sagitta * 4 * u * (1 - u) + 1e-16L) BOOST_ERROR("tool point strays by " << strays << " of " << sagitta << " at " << u);
         if (sagitta > 1e-9L) most_used_by_tool = std::max(most_used_by_tool, strays / sagitta);
       }
       const WideReal strays = std::abs(seen(t) - (1 - u) * seen_from - u * seen_to);
       if (strays > sagitta_of_object * 4 * u * (1 - u) + 1e-16L)
         BOOST_ERROR("object point strays by " << strays << " of " << sagitta_of_object << " at " << u);
-      if (sagitta_of_object > 1e-9L)
-        most_used_by_object = std::max(most_used_by_object, strays / sagitta_of_object);
+      if (sagitta_of_object > 1e-9L) most_used_by_object = std::max(most_used_by_object, strays / sagitta_of_object);
     }
   }
   BOOST_TEST_MESSAGE("used of the sagitta: tool " << most_used_by_tool << ", object " << most_used_by_object);
@@ -148,7 +141,6 @@ BOOST_AUTO_TEST_CASE(the_lowest_height_of_a_swept_tool_is_that_of_its_core_less_
   }
 }
 
-
 BOOST_AUTO_TEST_CASE(first_root_is_where_a_dense_sample_of_the_slack_first_falls_below_zero) {
   constexpr unsigned seed = 4;
   BOOST_TEST_MESSAGE("seed " << seed);
@@ -159,17 +151,14 @@ BOOST_AUTO_TEST_CASE(first_root_is_where_a_dense_sample_of_the_slack_first_falls
     const double a = below(bits, 5) == 0 ? 0.0 : scale * fraction(bits);
     const double b = below(bits, 5) == 0 ? 0.0 : scale * unit(bits);
     const double g = below(bits, 5) == 0 ? 0.0 : scale * magnitude(bits, -4, 0.5);
-    const auto slack = [&](WideReal u) {
-      return WideReal(a) + u * (WideReal(b) - WideReal(a)) - 4 * WideReal(g) * u * (1 - u);
-    };
+    const auto slack = [&](WideReal u) { return WideReal(a) + u * (WideReal(b) - WideReal(a)) - 4 * WideReal(g) * u * (1 - u); };
     const double root = feeler::first_root(a, b, g);
     BOOST_TEST((root >= 0 && root <= 1));
     (root < 1 ? part : whole)++;
     const WideReal rounding = 1e-15L * WideReal(std::max({a, std::abs(b), g}));
     for (int k = 0; k <= 400; ++k) {
       const WideReal u = WideReal(root) * WideReal(k) / 400;
-      if (slack(u) < -rounding)
-        BOOST_ERROR("slack " << slack(u) << " at " << u << " before the root " << root);
+      if (slack(u) < -rounding) BOOST_ERROR("slack " << slack(u) << " at " << u << " before the root " << root);
     }
     if (root < 1) {  // no earlier than needed: just behind it the slack is gone
       const WideReal behind = WideReal(root) * (1 + 1e-7L) + 1e-12L;
@@ -216,12 +205,10 @@ BOOST_AUTO_TEST_CASE(a_cached_plane_keeps_its_distance_over_the_whole_motion_and
     for (int k = 0; k <= 300; ++k) {
       const auto pose = random.wide().pose_at(WideReal(end.time) * WideReal(k) / 300);
       for (const WideVector& v : tool.vertices)
-        lowest = std::min(
-            lowest, normal.cast<WideReal>().dot(pose.translation + pose.rotation * v - random.wide().start));
+        lowest = std::min(lowest, normal.cast<WideReal>().dot(pose.translation + pose.rotation * v - random.wide().start));
     }
     BOOST_TEST(lowest >= WideReal(limit) + WideReal(kept) - 1e-15L);
-    BOOST_TEST(lowest <= WideReal(limit + kept + moving.sagitta(normal, end.time)) + 1e-15L +
-                             WideReal(moving.length()) / 300);
+    BOOST_TEST(lowest <= WideReal(limit + kept + moving.sagitta(normal, end.time)) + 1e-15L + WideReal(moving.length()) / 300);
     // For another motion the limits are found anew.
     const RandomMotion<feeler::Box<double>> next(bits, random.tool);
     const auto next_moving = next.moving();
@@ -266,8 +253,7 @@ BOOST_AUTO_TEST_CASE(the_limit_of_a_plane_is_as_high_as_a_point_that_swings_thro
   for (const double angle : {0.01, 0.1, 0.5}) {
     for (const double rise : {0.0, 0.2, -0.7, 0.95}) {  // of what would leave no lowest point in between
       feeler::Pose<double> pose;
-      pose.rotation =
-          Eigen::AngleAxisd(std::acos(0.0) - angle / 2, Vector::UnitY());  // hangs down at half of the time
+      pose.rotation = Eigen::AngleAxisd(std::acos(0.0) - angle / 2, Vector::UnitY());  // hangs down at half of the time
       feeler::Twist<double> motion{Vector::Zero(), Vector(0, angle, 0)};
       motion.linear.z() = rise * angle * angle * 0.1 / 2;
       const feeler::MovingTool<feeler::Segment<double>> moving(arm, Vector::Zero(), 0.1, pose, motion);
@@ -275,8 +261,7 @@ BOOST_AUTO_TEST_CASE(the_limit_of_a_plane_is_as_high_as_a_point_that_swings_thro
       WideReal lowest = 0;
       for (int k = 0; k <= 10000; ++k) {
         const WideReal t = WideReal(k) / 10000;
-        lowest =
-            std::min(lowest, t * WideReal(motion.linear.z()) - 0.1L * std::cos((t - 0.5L) * WideReal(angle)));
+        lowest = std::min(lowest, t * WideReal(motion.linear.z()) - 0.1L * std::cos((t - 0.5L) * WideReal(angle)));
       }
       const WideReal sagitta = WideReal(angle * angle) * 0.1L / 8;
       BOOST_TEST(lowest >= WideReal(limit) - 1e-16L);
@@ -285,8 +270,7 @@ BOOST_AUTO_TEST_CASE(the_limit_of_a_plane_is_as_high_as_a_point_that_swings_thro
   }
 }
 
-BOOST_AUTO_TEST_CASE(
-    a_full_cache_gives_up_the_plane_with_the_fewest_hits_and_keeps_the_others_in_order_of_use) {
+BOOST_AUTO_TEST_CASE(a_full_cache_gives_up_the_plane_with_the_fewest_hits_and_keeps_the_others_in_order_of_use) {
   std::mt19937 bits(6);
   const RandomMotion<feeler::Box<double>> random(bits, random_box(bits));
   const auto moving = random.moving();
@@ -308,8 +292,7 @@ BOOST_AUTO_TEST_CASE(
   BOOST_TEST(cache.normal(0) == normals[std::size_t(capacity - 1)]);
   BOOST_TEST(cache.normal(1) == normals[std::size_t(capacity - 2)]);
   BOOST_TEST(cache.normal(capacity - 1) == late);
-  for (int i = 0; i < capacity; ++i)
-    BOOST_TEST(cache.limit(i) == least_height(cache.normal(i), moving, 1));
+  for (int i = 0; i < capacity; ++i) BOOST_TEST(cache.limit(i) == least_height(cache.normal(i), moving, 1));
   cache.clear();
   BOOST_TEST(cache.size() == 0);
 }

@@ -47,8 +47,7 @@ struct Scene {
     for (int i = 0; i <= samples; ++i) {
       const auto pose = relative().pose_at(WideReal(time) * WideReal(i) / WideReal(samples));
       std::array<WideVector, 3> in_tool;
-      for (std::size_t k = 0; k < 3; ++k)
-        in_tool[k] = pose.rotation.conjugate() * (triangle()[k] - pose.translation);
+      for (std::size_t k = 0; k < 3; ++k) in_tool[k] = pose.rotation.conjugate() * (triangle()[k] - pose.translation);
       const WideReal limit = std::max(deepest, enough);
       const WideReal here = feeler::test::detail::depth_in_triangle(checked, in_tool, limit);
       if (here > limit) deepest = here;
@@ -81,8 +80,7 @@ void check_passage(const Scene<Tool>& scene, bool is_exact, bool knows_normal, T
   const auto start = moving.frame_at(0), end = moving.frame_at(1);
   PassedTriangle<double> triangle{scene.corners, Vector::Zero(), {}, is_exact};
   if (knows_normal) {
-    const auto closest =
-        feeler::separation(scene.random.tool, moving.in_tool(scene.corners, start), {}, clearance.touching);
+    const auto closest = feeler::separation(scene.random.tool, moving.in_tool(scene.corners, start), {}, clearance.touching);
     triangle.normal = start.rotation * closest.normal;
     triangle.features = closest.features;
   }
@@ -122,15 +120,12 @@ Scene<Tool> random_scene(std::mt19937& bits, const Tool& tool, Kind kind) {
   const double gap = below(bits, 6) == 0 ? 0.0 : magnitude(bits, -9, kind == Kind::any ? -0.5 : -4);
   Scene<Tool> scene(bits, tool, random_shape(bits), gap);
   auto& motion = scene.random.motion;
-  const auto closest =
-      feeler::test::closest_features(scene.relative().tool_at(WideTool(tool), 0), scene.triangle());
+  const auto closest = feeler::test::closest_features(scene.relative().tool_at(WideTool(tool), 0), scene.triangle());
   const Vector point = closest.on_first.template cast<double>();
   const WideVector between = closest.on_first - closest.on_second;
-  const Vector normal = closest.distance > 0 ? Vector((between / closest.distance).template cast<double>())
-                                             : random_direction(bits);
+  const Vector normal = closest.distance > 0 ? Vector((between / closest.distance).template cast<double>()) : random_direction(bits);
   switch (kind) {
-    case Kind::any:
-      break;
+    case Kind::any: break;
     case Kind::tick:
       motion.linear = magnitude(bits, -6, -3) * random_direction(bits);
       motion.angular = magnitude(bits, -5, -2) * random_direction(bits);
@@ -147,8 +142,7 @@ Scene<Tool> random_scene(std::mt19937& bits, const Tool& tool, Kind kind) {
     case Kind::along_the_face: {
       const Vector along = random_direction(bits).cross(normal);
       motion.linear = magnitude(bits, -5, -1) * along;
-      motion.angular =
-          below(bits, 2) == 0 ? Vector(Vector::Zero()) : Vector(magnitude(bits, -4, 0.4) * normal);
+      motion.angular = below(bits, 2) == 0 ? Vector(Vector::Zero()) : Vector(magnitude(bits, -4, 0.4) * normal);
       break;
     }
   }
@@ -163,14 +157,11 @@ void check_kind(unsigned seed, int count, Kind kind, const MakeTool& make_tool) 
   for (int i = 0; i < count; ++i) {
     const auto scene = random_scene(bits, make_tool(bits), kind);
     const bool is_exact = below(bits, 2) == 0, knows_normal = below(bits, 2) == 0;
-    BOOST_TEST_CONTEXT("scene " << i << " kind " << int(kind)) {
-      check_passage(scene, is_exact, knows_normal, tally);
-    }
+    BOOST_TEST_CONTEXT("scene " << i << " kind " << int(kind)) { check_passage(scene, is_exact, knows_normal, tally); }
   }
-  BOOST_TEST_MESSAGE("kind " << int(kind) << ": " << tally.free << " free, " << tally.blocked << " blocked, "
-                             << tally.certified / count << " certified on average, deepest "
-                             << tally.deepest << "; " << tally.work_for_late << " queries to know that it is late, "
-                             << tally.work << " to know the time");
+  BOOST_TEST_MESSAGE("kind " << int(kind) << ": " << tally.free << " free, " << tally.blocked << " blocked, " << tally.certified / count
+                             << " certified on average, deepest " << tally.deepest << "; " << tally.work_for_late
+                             << " queries to know that it is late, " << tally.work << " to know the time");
   BOOST_TEST(tally.free > count / 50);
   // Along the face nothing is in the way of a tool that meets it; a sharp one at no distance rounding may stop.
   if (!feeler::SweptTool<decltype(make_tool(bits))> || kind != Kind::along_the_face) BOOST_TEST(tally.blocked > count / 50);
@@ -205,8 +196,8 @@ BOOST_AUTO_TEST_CASE(a_sphere_that_spins_about_its_centre_and_a_capsule_that_spi
   corners << -9, 9, 0.1, -9, -9, 9, 0, 0, 0;
   const auto check = [&](const auto& tool, double height, const Vector& spin) {
     const feeler::Pose<double> pose{Vector(0, 0, height), feeler::Quaternion<double>::Identity()};
-    const feeler::MovingTool<std::remove_cvref_t<decltype(tool)>> moving(tool, Vector::Zero(), feeler::radius_about(tool, Vector::Zero()),
-                                                                        pose, {Vector(0.01, 0, 0), spin});
+    const feeler::MovingTool<std::remove_cvref_t<decltype(tool)>> moving(tool, Vector::Zero(), feeler::radius_about(tool, Vector::Zero()), pose,
+                                                                         {Vector(0.01, 0, 0), spin});
     int work = 0;
     const PassedTriangle<double> triangle{corners.colwise() - pose.translation, Vector::UnitZ(), {}, true};
     BOOST_TEST(!pass(moving, triangle, moving.frame_at(0), moving.frame_at(1), clearance, work).is_blocked);
@@ -263,10 +254,7 @@ BOOST_AUTO_TEST_CASE(a_motion_with_clearance_is_free) {
       const auto moving = scene.random.moving();
       int work = 0;
       const PassedTriangle<double> triangle{scene.corners, Vector::Zero(), {}, true};
-      free +=
-          pass(moving, triangle, moving.frame_at(0), moving.frame_at(1), Clearance<double>{}, work).is_blocked
-              ? 0
-              : 1;
+      free += pass(moving, triangle, moving.frame_at(0), moving.frame_at(1), Clearance<double>{}, work).is_blocked ? 0 : 1;
     }
     BOOST_TEST_MESSAGE("kind " << int(kind) << ": " << free << " of " << clear << " free");
     // A spin of up to π sweeps so much that steps run out sooner.
@@ -279,13 +267,11 @@ BOOST_AUTO_TEST_CASE(a_blocked_motion_is_certified_up_to_just_before_the_contact
   const feeler::Box<double> box(Vector(0.03, 0.02, 0.01));
   const Clearance<double> clearance;
   for (const double fall : {4e-3, 1e-2, 0.3}) {
-    const feeler::MovingTool<feeler::Box<double>> moving(box, Vector::Zero(), 0.04, {},
-                                                         {Vector(0, 0, -fall), Vector::Zero()});
+    const feeler::MovingTool<feeler::Box<double>> moving(box, Vector::Zero(), 0.04, {}, {Vector(0, 0, -fall), Vector::Zero()});
     Eigen::Matrix3d corners;
     corners << -9, 9, 0.1, -9, -9, 9, -0.013, -0.013, -0.013;
     int work = 0;
-    const auto passage = pass(moving, {corners, Vector::Zero(), {}, true}, moving.frame_at(0),
-                              moving.frame_at(1), clearance, work);
+    const auto passage = pass(moving, {corners, Vector::Zero(), {}, true}, moving.frame_at(0), moving.frame_at(1), clearance, work);
     BOOST_TEST(passage.is_blocked);
     BOOST_TEST(passage.time * fall <= 3e-3 - clearance.kept / 2);
     BOOST_TEST(passage.time * fall >= 3e-3 - 2 * clearance.kept - clearance.resolution);
@@ -299,11 +285,9 @@ BOOST_AUTO_TEST_CASE(an_overlap_may_stay_but_not_grow) {
   Eigen::Matrix3d corners;
   corners << -9, 9, 0.1, -9, -9, 9, -0.01 + 4e-12, -0.01 + 4e-12, -0.01 + 4e-12;
   for (const double fall : {-1e-3, 0.0, 1e-6}) {
-    const feeler::MovingTool<feeler::Box<double>> moving(box, Vector::Zero(), 0.04, {},
-                                                         {Vector(0.1, 0, -fall), Vector::Zero()});
+    const feeler::MovingTool<feeler::Box<double>> moving(box, Vector::Zero(), 0.04, {}, {Vector(0.1, 0, -fall), Vector::Zero()});
     int work = 0;
-    const auto passage = pass(moving, {corners, Vector::UnitZ(), {}, true}, moving.frame_at(0),
-                              moving.frame_at(1), clearance, work);
+    const auto passage = pass(moving, {corners, Vector::UnitZ(), {}, true}, moving.frame_at(0), moving.frame_at(1), clearance, work);
     BOOST_TEST(passage.is_blocked == (fall > 0));
     BOOST_TEST(passage.time * fall <= 2 * clearance.allowance);
   }
@@ -322,8 +306,7 @@ void check_turning_planes(unsigned seed, int count, const MakeTool& make_tool) {
     const auto first = feeler::separation(scene.random.tool, moving.in_tool(scene.corners, start), {}, 1e-8);
     const auto last = feeler::separation(scene.random.tool, moving.in_tool(scene.corners, end), {}, 1e-8);
     const bool holds = feeler::detail::turning_plane_holds<decltype(make_tool(bits))>(
-        moving, scene.corners, {start.rotation * first.normal, first.distance}, start,
-        {end.rotation * last.normal, last.distance}, end, 0.0);
+        moving, scene.corners, {start.rotation * first.normal, first.distance}, start, {end.rotation * last.normal, last.distance}, end, 0.0);
     const WideReal depth = scene.depth(1, 60, 1e-15L);
     held += holds ? 1 : 0;
     meeting += depth > 1e-15L ? 1 : 0;
@@ -366,17 +349,14 @@ BOOST_AUTO_TEST_CASE(a_plane_that_turns_follows_edges_that_roll_where_no_fixed_p
   const feeler::Segment<double> line(Vector(-0.1, 0, 0), Vector(0.1, 0, 0));
   Eigen::Matrix3d corners;
   corners << 0, 0, 0, -0.1, 0.1, 0, -1e-6, -1e-6, -0.2;
-  const feeler::MovingTool<feeler::Segment<double>> moving(line, Vector::Zero(), 0.1, {},
-                                                           {Vector::Zero(), Vector(0, 8e-3, 0)});
+  const feeler::MovingTool<feeler::Segment<double>> moving(line, Vector::Zero(), 0.1, {}, {Vector::Zero(), Vector(0, 8e-3, 0)});
   const auto start = moving.frame_at(0), end = moving.frame_at(1);
-  const feeler::detail::HeldPlane<double> first{Vector::UnitZ(), 1e-6},
-      last{Vector(std::sin(8e-3), 0, std::cos(8e-3)), 1e-6 * std::cos(8e-3)};
+  const feeler::detail::HeldPlane<double> first{Vector::UnitZ(), 1e-6}, last{Vector(std::sin(8e-3), 0, std::cos(8e-3)), 1e-6 * std::cos(8e-3)};
   BOOST_TEST(feeler::detail::held_part(moving, corners, first, start, end, 1e-7, true).part < 1);
   BOOST_TEST(feeler::detail::held_part(moving, corners, last, end, start, 1e-7, false).part < 1);
   BOOST_TEST(feeler::detail::turning_plane_holds(moving, corners, first, start, last, end, 1e-7));
   int work = 0;
-  BOOST_TEST(
-      !pass(moving, {corners, Vector::Zero(), {}, true}, start, end, Clearance<double>{}, work).is_blocked);
+  BOOST_TEST(!pass(moving, {corners, Vector::Zero(), {}, true}, start, end, Clearance<double>{}, work).is_blocked);
   BOOST_TEST(work == 2);
 }
 
@@ -399,8 +379,7 @@ BOOST_AUTO_TEST_CASE(a_line_that_rolls_over_an_edge_is_followed_to_where_it_lies
   BOOST_TEST(work <= 20);
 }
 
-BOOST_AUTO_TEST_CASE(
-    required_separation_never_exceeds_what_there_is_and_falls_no_further_than_twice_the_allowance) {
+BOOST_AUTO_TEST_CASE(required_separation_never_exceeds_what_there_is_and_falls_no_further_than_twice_the_allowance) {
   for (const double rounding : {0.0, 1e-8, 1e-7}) {
     Clearance<double> clearance;
     clearance.rounding = rounding;

@@ -35,8 +35,7 @@ void check_depth(unsigned seed, int count, const MakeTool& make_tool) {
     if (!(depth > 1e-6L)) continue;
     ++overlapping;
     const auto found = feeler::separation(tool, corners, {}, 1e-8);
-    const WideReal shown =
-        WideTool(tool).separation_along(found.normal.template cast<WideReal>(), wide(corners));
+    const WideReal shown = WideTool(tool).separation_along(found.normal.template cast<WideReal>(), wide(corners));
     BOOST_TEST(std::abs(shown - WideReal(found.distance)) < 1e-15L);
     worst = std::max(worst, std::abs(depth + WideReal(found.distance)));
     // Moved by its depth along the normal the tool is free.
@@ -50,9 +49,7 @@ void check_depth(unsigned seed, int count, const MakeTool& make_tool) {
 
 }  // namespace
 
-BOOST_AUTO_TEST_CASE(depth_of_a_box_is_that_of_the_separating_axis_theorem_in_long_double) {
-  check_depth(1, 2000, random_box);
-}
+BOOST_AUTO_TEST_CASE(depth_of_a_box_is_that_of_the_separating_axis_theorem_in_long_double) { check_depth(1, 2000, random_box); }
 BOOST_AUTO_TEST_CASE(depth_of_a_hull_is_that_of_the_separating_axis_theorem_in_long_double) {
   check_depth(2, 400, [](std::mt19937& bits) { return random_hull(bits, 4 + below(bits, 20)); });
 }
@@ -140,8 +137,7 @@ BOOST_AUTO_TEST_CASE(apart_touching_or_overlapping_the_distance_is_proved_by_its
       const WideReal size = 0.2L + WideReal(corners.cwiseAbs().maxCoeff());
       const WideVector normal = found.normal.cast<WideReal>();
       BOOST_TEST(std::abs(normal.norm() - 1) < 1e-15L);
-      BOOST_TEST(std::abs(WideTool(box).separation_along(normal, wide(corners)) - WideReal(found.distance)) <=
-                 1e-15L * size);
+      BOOST_TEST(std::abs(WideTool(box).separation_along(normal, wide(corners)) - WideReal(found.distance)) <= 1e-15L * size);
       // Moved into each other along one way, they may be parted along a shorter one.
       if (gap >= 0) BOOST_TEST(found.distance <= gap + 1e-15 * double(size));
       if (gap < 0) BOOST_TEST(WideReal(found.distance) <= 1e-15L * size - depth_of(box, corners));

@@ -32,8 +32,7 @@ namespace {
 /// A soup of triangles of all shapes about `offset`, with centres in a box of half extents `room` and sizes
 /// of about `size` / 10.
 struct Soup {
-  Soup(std::mt19937& bits, int count, const Vector& offset, const Vector& room = Vector(0.5, 0.5, 0.5),
-       double size = 0.5)
+  Soup(std::mt19937& bits, int count, const Vector& offset, const Vector& room = Vector(0.5, 0.5, 0.5), double size = 0.5)
       : vertices(3 * count, 3), triangles(count, 3) {
     for (int i = 0; i < count; ++i) {
       const Vector centre = room.cwiseProduct(random_vector(bits));
@@ -55,8 +54,7 @@ struct Tally {
 
 /// Random motions from free poses: certified times against samples, blockers against distances.
 template <class Order>
-void check_soup(unsigned seed, const Soup& soup, const Vector& offset, double room, int count,
-                WideReal rounding) {
+void check_soup(unsigned seed, const Soup& soup, const Vector& offset, double room, int count, WideReal rounding) {
   BOOST_TEST_MESSAGE("seed " << seed);
   std::mt19937 bits(seed);
   const auto triangles = int(soup.triangles.rows());
@@ -68,23 +66,19 @@ void check_soup(unsigned seed, const Soup& soup, const Vector& offset, double ro
   Tally tally;
   Box tool(Vector(1, 1, 1));
   RandomMotion<Box> random(bits, tool);
-  constexpr int chain =
-      6;  // motions one after the other, the next from where the last was certified, as the renderer does
+  constexpr int chain = 6;  // motions one after the other, the next from where the last was certified, as the renderer does
   for (int i = 0, link = 0; i < count; ++i, link = (link + 1) % chain) {
     if (link == 0) {
       planes.with_tool().clear();  // of another tool
       planes.leaves().clear();
       do {
-        tool = Box(
-            Vector(magnitude(bits, -2.3, -1.3), magnitude(bits, -2.3, -1.3), magnitude(bits, -2.3, -1.3)));
+        tool = Box(Vector(magnitude(bits, -2.3, -1.3), magnitude(bits, -2.3, -1.3), magnitude(bits, -2.3, -1.3)));
         random = RandomMotion<Box>(bits, tool);
         random.pose.translation = offset + room * random_vector(bits);
-      } while (deepest_penetration(object, feeler::test::checked_tool(tool), random.wide().pose_at(0)).depth >
-               0);
+      } while (deepest_penetration(object, feeler::test::checked_tool(tool), random.wide().pose_at(0)).depth > 0);
       if (i % 4 == 0) random.motion.linear = 1e3 * random_direction(bits);  // teleports
     } else if (link % 2 == 1) {                                             // presses on, ever shorter
-      random.motion.linear =
-          magnitude(bits, -4, -1.5) * (random.motion.linear.normalized() + 0.5 * random_vector(bits));
+      random.motion.linear = magnitude(bits, -4, -1.5) * (random.motion.linear.normalized() + 0.5 * random_vector(bits));
       random.motion.angular = magnitude(bits, -4, -1) * random_direction(bits);
     } else {
       random.motion.linear = magnitude(bits, -4, -2) * random_direction(bits);
@@ -100,18 +94,15 @@ void check_soup(unsigned seed, const Soup& soup, const Vector& offset, double ro
     if (i % 2 == 0) {  // some triangles are known from before
       for (int k = 0; k < 5; ++k) {
         const int t = below(bits, triangles);
-        if (std::any_of(known.begin(), known.end(), [t](const auto& other) { return other.triangle == t; }))
-          continue;
+        if (std::any_of(known.begin(), known.end(), [t](const auto& other) { return other.triangle == t; })) continue;
         const Eigen::Matrix3d corners = mesh.corners(t).colwise() - moving.origin();
-        const auto closest =
-            feeler::separation(box, moving.in_tool(corners, moving.frame_at(0)), {}, clearance.touching);
+        const auto closest = feeler::separation(box, moving.in_tool(corners, moving.frame_at(0)), {}, clearance.touching);
         known.push_back({t, {corners, moving.frame_at(0).rotation * closest.normal, closest.features, true}});
       }
     }
     int work = 0;
     Sweep<Box, Order> sweep(planes, clearance, surface.get());
-    const auto result = sweep.certify(mesh, moving, std::span<const KnownTriangle<double>>(known), work,
-                                      std::numeric_limits<int>::max());
+    const auto result = sweep.certify(mesh, moving, std::span<const KnownTriangle<double>>(known), work, std::numeric_limits<int>::max());
     BOOST_TEST_CONTEXT("motion " << i << " from seed " << seed) {
       BOOST_TEST(!result.is_exhausted);
       BOOST_TEST((result.time >= 0 && result.time <= 1));
@@ -124,8 +115,7 @@ void check_soup(unsigned seed, const Soup& soup, const Vector& offset, double ro
         const auto found = deepest_penetration(object, checked, pose);
         tally.deepest = std::max(tally.deepest, found.depth);
         if (found.depth > WideReal(clearance.allowance) * 1.01L)
-          BOOST_ERROR("certified up to " << result.time << ", yet " << found.depth << " m deep in "
-                                         << found.triangle << " at sample " << k);
+          BOOST_ERROR("certified up to " << result.time << ", yet " << found.depth << " m deep in " << found.triangle << " at sample " << k);
       }
       // Every blocker comes no earlier than the certified time, once, and lies within what blocked could not
       // resolve.
@@ -137,8 +127,7 @@ void check_soup(unsigned seed, const Soup& soup, const Vector& offset, double ro
         first = std::min(first, blocker.time);
         const auto at = random.wide().tool_at(WideTool(box), WideReal(blocker.time));
         const auto corners = wide(mesh.corners(blocker.triangle));
-        const WideReal distance =
-            feeler::test::intersect(at, corners) ? WideReal(0) : closest_features(at, corners).distance;
+        const WideReal distance = feeler::test::intersect(at, corners) ? WideReal(0) : closest_features(at, corners).distance;
         // The rest of the motion brings it no nearer than it moves; a blocker out of reach would be none.
         BOOST_TEST(distance <= WideReal(moving.length() * (1 - blocker.time)) + 1e-6L);
         const WideReal fast = WideReal(moving.length());
@@ -155,9 +144,8 @@ void check_soup(unsigned seed, const Soup& soup, const Vector& offset, double ro
     }
     random.pose = moving.pose_at(result.time);
   }
-  BOOST_TEST_MESSAGE(tally.free << " free, " << tally.blocked << " blocked, " << tally.collided
-                                << " ended in a triangle, " << tally.known << " short blockers, deepest "
-                                << tally.deepest);
+  BOOST_TEST_MESSAGE(tally.free << " free, " << tally.blocked << " blocked, " << tally.collided << " ended in a triangle, " << tally.known
+                                << " short blockers, deepest " << tally.deepest);
   BOOST_TEST(tally.free > count / 20);
   BOOST_TEST(tally.blocked > count / 20);
   BOOST_TEST(tally.collided > 5);
@@ -199,13 +187,11 @@ BOOST_AUTO_TEST_CASE_TEMPLATE(a_tool_at_rest_is_free_exactly_where_it_penetrates
     RandomMotion<Box> random(bits, box);
     random.pose.translation = 0.5 * random_vector(bits);
     random.motion = {};
-    const WideReal depth =
-        deepest_penetration(object, feeler::test::checked_tool(box), random.wide().pose_at(0)).depth;
+    const WideReal depth = deepest_penetration(object, feeler::test::checked_tool(box), random.wide().pose_at(0)).depth;
     if (depth > 0 && depth < 1e-9L) continue;
     PlaneCache<double> planes;
     int work = 0;
-    const auto result =
-        Sweep<Box, Order>(planes, {}).certify(mesh, random.moving(), {}, work, std::numeric_limits<int>::max());
+    const auto result = Sweep<Box, Order>(planes, {}).certify(mesh, random.moving(), {}, work, std::numeric_limits<int>::max());
     BOOST_TEST(result.blockers.empty() == !(depth > 0));
     (depth > 0 ? penetrating : free)++;
   }
@@ -277,8 +263,7 @@ BOOST_AUTO_TEST_CASE_TEMPLATE(a_known_triangle_is_examined_whether_or_not_the_tr
   const std::array<KnownTriangle<double>, 1> known{{{0, {corners, Vector::UnitZ(), {}, true}}}};
   PlaneCache<double> planes;
   int work = 0;
-  const auto result =
-      Sweep<Box, Order>(planes, {}).certify(mesh, moving, std::span<const KnownTriangle<double>>(known), work, 1000);
+  const auto result = Sweep<Box, Order>(planes, {}).certify(mesh, moving, std::span<const KnownTriangle<double>>(known), work, 1000);
   BOOST_TEST_REQUIRE(result.blockers.size() == 1);
   BOOST_TEST(result.blockers[0].triangle == 0);
   BOOST_TEST(result.time * 0.5 <= 1e-3);
@@ -507,13 +492,15 @@ BOOST_AUTO_TEST_CASE(what_is_near_a_standing_tool_is_noticed_or_lies_behind_the_
     BOOST_TEST(!noticed.is_exhausted);
     if (noticed.full()) continue;
     for (int t = 0; t < mesh.triangle_count(); ++t) {
-      if (distance[std::size_t(t)] > WideReal(clearance.kept) - 1e-12L || names.count(t) > 0 || (!known.empty() && known.front().triangle == t)) continue;
+      if (distance[std::size_t(t)] > WideReal(clearance.kept) - 1e-12L || names.count(t) > 0 || (!known.empty() && known.front().triangle == t))
+        continue;
       const Eigen::Matrix3d corners = mesh.corners(t).colwise() - standing.origin();
       const bool is_behind = std::any_of(fronts.begin(), fronts.end(), [&](const Front& front) {
         const double highest = (front.normal.transpose() * corners).maxCoeff();
         return highest <= front.height + clearance.kept / 900 && highest < front.lowest;
       });
-      if (!is_behind) BOOST_ERROR("triangle " << t << " at " << distance[std::size_t(t)] << " m of a tool of margin " << clearance.kept << " was not noticed");
+      if (!is_behind)
+        BOOST_ERROR("triangle " << t << " at " << distance[std::size_t(t)] << " m of a tool of margin " << clearance.kept << " was not noticed");
       ++hidden;
     }
   }

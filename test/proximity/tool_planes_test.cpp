@@ -10,8 +10,8 @@ BOOST_AUTO_TEST_SUITE(tool_planes)
 
 using namespace feeler_test;
 using feeler::test::WideReal;
-using feeler::test::WideVector;
 using feeler::test::WideTool;
+using feeler::test::WideVector;
 
 BOOST_AUTO_TEST_CASE(what_a_plane_parts_stays_below_it_on_the_whole_way_wherever_the_tool_may_come_near) {
   constexpr unsigned seed = 11;
@@ -61,7 +61,8 @@ BOOST_AUTO_TEST_CASE(a_face_that_turns_parts_what_a_plane_of_the_world_does_not)
   const Vector reference(-0.01, 0, -0.01);  // in the edge
   feeler::Pose<double> pose;
   pose.translation = Vector(0, 0, 2e-6);
-  const feeler::MovingTool<feeler::Box<double>> moving(box, reference, feeler::radius_about(box, reference), pose, {Vector::Zero(), Vector(0, -1e-3, 0)});
+  const feeler::MovingTool<feeler::Box<double>> moving(box, reference, feeler::radius_about(box, reference), pose,
+                                                       {Vector::Zero(), Vector(0, -1e-3, 0)});
   const auto start = moving.frame_at(0), end = moving.frame_at(1);
   feeler::ToolPlanes<double> planes;
   planes.add(Vector::UnitZ(), moving, start, end, 1e-7);

@@ -70,7 +70,8 @@ BOOST_AUTO_TEST_CASE(what_a_remembered_plane_parts_the_tool_never_comes_near_on_
       under = below(bits, mesh.triangle_count() - 1);
       const Vector up = (below(bits, 2) == 0 ? 1 : -1) * mesh.normal(under);
       const int lowest = random.tool.support(random.pose.rotation.inverse() * -up);
-      random.pose.translation = mesh.corners(under).rowwise().mean() + magnitude(bits, -5, -1) * up - random.pose.rotation * random.tool.vertex(lowest);
+      random.pose.translation =
+          mesh.corners(under).rowwise().mean() + magnitude(bits, -5, -1) * up - random.pose.rotation * random.tool.vertex(lowest);
       random.motion.linear = magnitude(bits, -4, -1) * random_direction(bits);
       random.motion.angular = magnitude(bits, -4, 0.3) * random_direction(bits);
     } else {
@@ -126,7 +127,8 @@ BOOST_AUTO_TEST_CASE(a_wall_that_the_tool_sinks_into_is_parted_until_it_comes_ne
     const Vector down(0.1 * fraction(bits), 0.1 * fraction(bits), -1);
     const double lowest = -(pose.rotation.toRotationMatrix().transpose() * -Vector::UnitZ()).cwiseAbs().dot(tool.half_extents());
     pose.translation = Vector(0.3 + 0.2 * fraction(bits), 0.3 + 0.2 * fraction(bits), 0.2 - lowest);
-    const feeler::MovingTool<feeler::Box<double>> moving(tool, Vector::Zero(), feeler::radius_about(tool, Vector(Vector::Zero())), pose, {down, Vector::Zero()});
+    const feeler::MovingTool<feeler::Box<double>> moving(tool, Vector::Zero(), feeler::radius_about(tool, Vector(Vector::Zero())), pose,
+                                                         {down, Vector::Zero()});
     const auto start = moving.frame_at_start(), end = moving.frame_at(1);
     planes->begin(mesh, 0, moving, start, true);
     planes->end(end);

@@ -14,8 +14,8 @@
 BOOST_AUTO_TEST_SUITE(qp_allocation)
 
 #if FEELER_TEST_COUNTS_ALLOCATIONS
-using Solvers = std::tuple<feeler::DualActiveSet<double>, feeler::InteriorPoint<double>,
-                           feeler::ProjectedGaussSeidel<double>, feeler::TextbookActiveSet<double>>;
+using Solvers =
+    std::tuple<feeler::DualActiveSet<double>, feeler::InteriorPoint<double>, feeler::ProjectedGaussSeidel<double>, feeler::TextbookActiveSet<double>>;
 
 BOOST_AUTO_TEST_CASE_TEMPLATE(solving_allocates_nothing_and_the_count_would_show_it, Solver, Solvers) {
   BOOST_TEST(feeler_test::count_works());
@@ -38,9 +38,7 @@ BOOST_AUTO_TEST_CASE_TEMPLATE(solving_allocates_nothing_and_the_count_would_show
   }
 }
 #else
-BOOST_AUTO_TEST_CASE(allocations_are_not_counted_with_a_sanitizer) {
-  BOOST_TEST_MESSAGE("skipped: the sanitizer has a malloc of its own");
-}
+BOOST_AUTO_TEST_CASE(allocations_are_not_counted_with_a_sanitizer) { BOOST_TEST_MESSAGE("skipped: the sanitizer has a malloc of its own"); }
 #endif
 
 BOOST_AUTO_TEST_SUITE_END()

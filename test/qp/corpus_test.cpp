@@ -98,8 +98,7 @@ BOOST_AUTO_TEST_CASE(every_problem_of_the_corpus_is_solved_right) {
     const feeler::Vector6<double> m(weights.data()), dh(target.data());
     problem.hessian = m.asDiagonal();
     problem.gradient = -m.cwiseProduct(dh);
-    for (int k = 0; k < rows; ++k)
-      problem.add_row(feeler::Vector6<double>(&entries[std::size_t(6 * k)]), bounds[std::size_t(k)]);
+    for (int k = 0; k < rows; ++k) problem.add_row(feeler::Vector6<double>(&entries[std::size_t(6 * k)]), bounds[std::size_t(k)]);
     Reference reference;
     reference.status_exact = references.read<std::int32_t>();
     reference.status_relaxed = references.read<std::int32_t>();
@@ -134,23 +133,20 @@ BOOST_AUTO_TEST_CASE(every_problem_of_the_corpus_is_solved_right) {
       if (reference.status_exact == 0) nearest = std::min(nearest, distance(exact));
       if (reference.status_relaxed == 0) nearest = std::min(nearest, distance(relaxed));
       const double size = 1 + solution.step.head<3>().norm() * unit;
-      is_right = kkt.violation * static_cast<long double>(unit) <= 1e-12L * static_cast<long double>(size) &&
-                 nearest <= 1e-10 * size;
+      is_right = kkt.violation * static_cast<long double>(unit) <= 1e-12L * static_cast<long double>(size) && nearest <= 1e-10 * size;
       worst_violation = std::max(worst_violation, kkt.violation * static_cast<long double>(unit));
       worst_distance = std::max(worst_distance, static_cast<long double>(nearest / size));
       worst_stationarity = std::max(worst_stationarity, kkt.stationarity);
       if (!is_right)
-        BOOST_TEST_MESSAGE("problem " << i << " of " << family.name.data() << ": off by " << nearest
-                                      << " m, violation " << kkt.violation << ", stationarity "
-                                      << kkt.stationarity);
+        BOOST_TEST_MESSAGE("problem " << i << " of " << family.name.data() << ": off by " << nearest << " m, violation " << kkt.violation
+                                      << ", stationarity " << kkt.stationarity);
     }
     if (!is_right) ++wrong[std::string(family.name.data()) + " status " + std::to_string(int(status))];
     BOOST_TEST(feeler_test::is_valid(problem, solution));
   }
   for (const auto& [name, times] : wrong) BOOST_TEST_MESSAGE(name << ": " << times << " wrong");
-  BOOST_TEST_MESSAGE(optimal << " optimal, " << infeasible << " infeasible; worst violation "
-                             << worst_violation << " m, distance from the reference " << worst_distance
-                             << " m, stationarity " << worst_stationarity);
+  BOOST_TEST_MESSAGE(optimal << " optimal, " << infeasible << " infeasible; worst violation " << worst_violation << " m, distance from the reference "
+                             << worst_distance << " m, stationarity " << worst_stationarity);
   BOOST_TEST(wrong.empty());
 }
 

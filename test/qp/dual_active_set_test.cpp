@@ -36,22 +36,15 @@ feeler::Vector6<double> six(double x, double y, double z, double a = 0, double b
 
 }  // namespace
 
-BOOST_AUTO_TEST_CASE(every_answer_in_float_obeys_the_laws_of_a_qp_solver) {
-  feeler_test::check_qp_laws<DualActiveSet<float>>(1);
-}
-BOOST_AUTO_TEST_CASE(every_answer_in_double_obeys_the_laws_of_a_qp_solver) {
-  feeler_test::check_qp_laws<DualActiveSet<double>>(2);
-}
-BOOST_AUTO_TEST_CASE(every_answer_in_long_double_obeys_the_laws_of_a_qp_solver) {
-  feeler_test::check_qp_laws<DualActiveSet<long double>>(3);
-}
+BOOST_AUTO_TEST_CASE(every_answer_in_float_obeys_the_laws_of_a_qp_solver) { feeler_test::check_qp_laws<DualActiveSet<float>>(1); }
+BOOST_AUTO_TEST_CASE(every_answer_in_double_obeys_the_laws_of_a_qp_solver) { feeler_test::check_qp_laws<DualActiveSet<double>>(2); }
+BOOST_AUTO_TEST_CASE(every_answer_in_long_double_obeys_the_laws_of_a_qp_solver) { feeler_test::check_qp_laws<DualActiveSet<long double>>(3); }
 
 BOOST_AUTO_TEST_CASE(a_box_on_the_floor_stops_at_the_floor_and_shares_its_weight) {
   // Four corners at ±0.1; the target is 0.3 below: each multiplier times 4 is the weight, and the step is
   // zero.
   Problem problem = towards(six(0, 0, -0.3));
-  for (const Vector& arm :
-       {Vector(0.1, 0.1, 0), Vector(-0.1, 0.1, 0), Vector(-0.1, -0.1, 0), Vector(0.1, -0.1, 0)})
+  for (const Vector& arm : {Vector(0.1, 0.1, 0), Vector(-0.1, 0.1, 0), Vector(-0.1, -0.1, 0), Vector(0.1, -0.1, 0)})
     problem.add_row(contact_row<double>(Vector::UnitZ(), arm), 0);
   DualActiveSet<double> solver;
   Solution solution;
@@ -70,8 +63,7 @@ BOOST_AUTO_TEST_CASE(a_corner_of_three_walls_is_found_and_its_multipliers_are_th
   BOOST_TEST((solver.solve(problem, solution) == QpStatus::optimal));
   BOOST_TEST((solution.step - six(0, 0.25, 5, 0.5, 0, 0)).norm() < 1e-15);
   BOOST_TEST_REQUIRE(solution.active.size() == 2);
-  for (const auto& active : solution.active)
-    BOOST_TEST(std::abs(active.multiplier - (active.row == 0 ? 1 : 2.25)) < 1e-15);
+  for (const auto& active : solution.active) BOOST_TEST(std::abs(active.multiplier - (active.row == 0 ? 1 : 2.25)) < 1e-15);
 }
 
 BOOST_AUTO_TEST_CASE(sliding_out_of_a_wedge_is_found_however_flat_the_wedge) {
@@ -154,8 +146,7 @@ BOOST_AUTO_TEST_CASE(a_step_called_optimal_meets_every_row_in_float_too) {
   int optimal = 0;
   for (int i = 0; i < 30000; ++i) {
     const double scale = feeler_test::magnitude(bits, -6, 3);
-    const auto problem =
-        feeler_test::random_problem<float>(bits, 2 + i % 2, scale);  // slots and rank-deficient rows
+    const auto problem = feeler_test::random_problem<float>(bits, 2 + i % 2, scale);  // slots and rank-deficient rows
     if (solver.solve(problem, solution) != QpStatus::optimal) continue;
     ++optimal;
     const auto kkt = feeler_test::kkt_residuals(feeler_test::WideProblem(problem), solution);
@@ -176,11 +167,9 @@ BOOST_AUTO_TEST_CASE(a_start_from_the_rows_of_the_answer_finds_it_at_once) {
   int optimal = 0, at_once = 0;
   for (int i = 0; i < 6000; ++i) {
     const double scale = feeler_test::magnitude(bits, -6, 3);
-    const Problem problem =
-        feeler_test::random_problem<double>(bits, i % feeler_test::random_problem_families, scale);
+    const Problem problem = feeler_test::random_problem<double>(bits, i % feeler_test::random_problem_families, scale);
     const QpStatus status = solver.solve(problem, cold);
-    feeler_test::check_answer(problem, solver.solve(problem, feeler::WarmStart(cold), warm), warm, scale,
-                              "problem " + std::to_string(i));
+    feeler_test::check_answer(problem, solver.solve(problem, feeler::WarmStart(cold), warm), warm, scale, "problem " + std::to_string(i));
     if (status != QpStatus::optimal) continue;
     ++optimal;
     at_once += warm.iterations <= 1 ? 1 : 0;
@@ -197,11 +186,9 @@ BOOST_AUTO_TEST_CASE(a_start_from_any_rows_ends_at_the_same_answer) {
   Solution solution;
   for (int i = 0; i < 6000; ++i) {
     const double scale = feeler_test::magnitude(bits, -6, 3);
-    const Problem problem =
-        feeler_test::random_problem<double>(bits, i % feeler_test::random_problem_families, scale);
+    const Problem problem = feeler_test::random_problem<double>(bits, i % feeler_test::random_problem_families, scale);
     feeler::WarmStart start;  // repeated rows and rows that do not exist among them
-    for (int k = feeler_test::below(bits, 7); k > 0; --k)
-      start.rows.push_back(feeler_test::below(bits, 12) - 2);
+    for (int k = feeler_test::below(bits, 7); k > 0; --k) start.rows.push_back(feeler_test::below(bits, 12) - 2);
     const QpStatus status = solver.solve(problem, start, solution);
     feeler_test::check_answer(problem, status, solution, scale, "problem " + std::to_string(i));
     Solution again;
@@ -287,8 +274,7 @@ BOOST_AUTO_TEST_CASE(units_that_differ_by_a_power_of_two_give_the_same_bits) {
   DualActiveSet<double> solver, scaled;
   scaled.tolerance = solver.tolerance * 1024;
   for (int i = 0; i < 500; ++i) {
-    const Problem problem =
-        feeler_test::random_problem<double>(bits, i % feeler_test::random_problem_families, 0.01);
+    const Problem problem = feeler_test::random_problem<double>(bits, i % feeler_test::random_problem_families, 0.01);
     Problem larger = problem;  // every length of the step times 1024
     larger.gradient *= 1024;
     for (int k = 0; k < problem.row_count; ++k) larger.bounds[std::size_t(k)] *= 1024;
@@ -322,8 +308,7 @@ BOOST_AUTO_TEST_CASE(hessians_and_lengths_far_beyond_float_obey_the_laws) {
       feeler_test::QpPromise large_promise;
       large_promise.tolerance *= factor;
       solver.tolerance *= factor;
-      feeler_test::check_answer(large, solver.solve(large, solution), solution, factor * scale, "large " + name,
-                                large_promise);
+      feeler_test::check_answer(large, solver.solve(large, solution), solution, factor * scale, "large " + name, large_promise);
     }
   }
 }

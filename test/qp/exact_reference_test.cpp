@@ -36,8 +36,7 @@ template <>
 constexpr bool decides_all<feeler::InteriorPoint<double>> = false;
 
 template <class Solver>
-void check(const feeler::qp_families::Family& family, const feeler::qp_families::Problem& problem,
-           Judge& judge) {
+void check(const feeler::qp_families::Family& family, const feeler::qp_families::Problem& problem, Judge& judge) {
   Solver solver;
   solver.tolerance /= family.metres_per_unit;
   feeler::QpSolution<double> solution;

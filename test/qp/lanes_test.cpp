@@ -29,8 +29,7 @@ void check_same_bits(unsigned seed) {
     auto problem = feeler_test::random_problem<Scalar>(bits, i % feeler_test::random_problem_families, scale);
     if (i % 3 == 0) {  // and more rows, up to as many as there is room for
       for (int k = feeler_test::below(bits, problem.row_capacity); k > 0; --k) {
-        problem.add_row(feeler_test::contact_row<Scalar>(feeler_test::random_direction(bits),
-                                                         0.1 * feeler_test::random_vector(bits)),
+        problem.add_row(feeler_test::contact_row<Scalar>(feeler_test::random_direction(bits), 0.1 * feeler_test::random_vector(bits)),
                         Scalar(-0.1 * scale * feeler_test::fraction(bits)));
       }
     }
@@ -50,12 +49,8 @@ void check_same_bits(unsigned seed) {
 
 }  // namespace
 
-BOOST_AUTO_TEST_CASE(any_number_of_lanes_gives_the_same_bits_in_double) {
-  check_same_bits<double, 2, 4, 8>(11);
-}
-BOOST_AUTO_TEST_CASE(any_number_of_lanes_gives_the_same_bits_in_float) {
-  check_same_bits<float, 4, 8>(12);
-}
+BOOST_AUTO_TEST_CASE(any_number_of_lanes_gives_the_same_bits_in_double) { check_same_bits<double, 2, 4, 8>(11); }
+BOOST_AUTO_TEST_CASE(any_number_of_lanes_gives_the_same_bits_in_float) { check_same_bits<float, 4, 8>(12); }
 
 namespace {
 
@@ -75,8 +70,8 @@ void check_one_lane_changes() {
   alignas(64) std::array<Scalar, lanes> before;
   for (std::size_t i = 0; i < lanes; ++i) before[i] = Scalar(1) + Scalar(i);
   for (int lane = -16; lane <= 16; ++lane) {
-    const auto after = feeler::detail::in_lanes<Scalar>(
-        feeler::detail::with_lane<Scalar, lanes>(feeler::detail::load<Group>(before.data()), lane, Scalar(-5)));
+    const auto after =
+        feeler::detail::in_lanes<Scalar>(feeler::detail::with_lane<Scalar, lanes>(feeler::detail::load<Group>(before.data()), lane, Scalar(-5)));
     for (int i = 0; i < lanes; ++i) BOOST_TEST(after[std::size_t(i)] == (i == lane ? Scalar(-5) : before[std::size_t(i)]));
   }
 }
@@ -86,8 +81,7 @@ void check_first_and_largest_lanes() {
   using Group = feeler::detail::Lanes<Scalar, lanes>;
   const Group ones = feeler::detail::spread<Group>(Scalar(1));
   for (int count = 0; count <= lanes; ++count) {
-    const auto first = feeler::detail::in_lanes<Scalar>(
-        Group(feeler::detail::first_lanes<Scalar, lanes>(count) ? ones : Group{}));
+    const auto first = feeler::detail::in_lanes<Scalar>(Group(feeler::detail::first_lanes<Scalar, lanes>(count) ? ones : Group{}));
     for (int i = 0; i < lanes; ++i) BOOST_TEST(first[std::size_t(i)] == (i < count ? 1 : 0));
   }
   for (int largest = 0; largest < lanes; ++largest) {
@@ -165,8 +159,7 @@ BOOST_AUTO_TEST_CASE(the_best_row_scores_within_an_eighth_of_any_other) {
     feeler::detail::BestRow<double, lanes> best;
     const Group threshold = feeler::detail::spread<Group>(1e-9);
     for (std::size_t k = 0; k < rows; k += lanes)
-      best.meet(feeler::detail::load<Group>(&violations[k]), feeler::detail::load<Group>(&weights[k]),
-                threshold);
+      best.meet(feeler::detail::load<Group>(&violations[k]), feeler::detail::load<Group>(&weights[k]), threshold);
     const auto score = [&](std::size_t k) { return violations[k] * violations[k] / weights[k]; };
     BOOST_TEST_REQUIRE(best.row() >= 0);
     for (std::size_t k = 0; k < rows; ++k) BOOST_TEST(1.1251 * score(std::size_t(best.row())) >= score(k));

@@ -19,8 +19,8 @@ using feeler_test::Rational;
 
 namespace {
 
-using Solvers = std::tuple<feeler::DualActiveSet<Float50>, feeler::TextbookActiveSet<Float50>,
-                           feeler::InteriorPoint<Float50>, feeler::ProjectedGaussSeidel<Float50>>;
+using Solvers = std::tuple<feeler::DualActiveSet<Float50>, feeler::TextbookActiveSet<Float50>, feeler::InteriorPoint<Float50>,
+                           feeler::ProjectedGaussSeidel<Float50>>;
 
 }  // namespace
 
@@ -36,13 +36,11 @@ BOOST_AUTO_TEST_CASE(fractions_give_an_answer_that_is_exactly_optimal_or_exactly
   feeler::QpSolution<Rational> solution;
   int optimal = 0, infeasible = 0;
   for (int i = 0; i < 60; ++i) {
-    const auto rounded =
-        feeler_test::random_problem<double>(bits, i % feeler_test::random_problem_families, 1);
+    const auto rounded = feeler_test::random_problem<double>(bits, i % feeler_test::random_problem_families, 1);
     feeler::QpProblem<Rational> problem;
     problem.hessian = rounded.hessian.cast<Rational>();
     problem.gradient = rounded.gradient.cast<Rational>();
-    for (int k = 0; k < rounded.row_count; ++k)
-      problem.add_row(rounded.rows[std::size_t(k)].cast<Rational>(), rounded.bounds[std::size_t(k)]);
+    for (int k = 0; k < rounded.row_count; ++k) problem.add_row(rounded.rows[std::size_t(k)].cast<Rational>(), rounded.bounds[std::size_t(k)]);
     const feeler::QpStatus status = solver.solve(problem, solution);
     if (status == feeler::QpStatus::infeasible) {
       ++infeasible;
@@ -59,8 +57,7 @@ BOOST_AUTO_TEST_CASE(fractions_give_an_answer_that_is_exactly_optimal_or_exactly
       force += active.multiplier * problem.rows[row];
     }
     BOOST_TEST((force == feeler::Vector6<Rational>::Zero()));
-    for (int k = 0; k < problem.row_count; ++k)
-      BOOST_TEST((problem.rows[std::size_t(k)].dot(solution.step) >= problem.bounds[std::size_t(k)]));
+    for (int k = 0; k < problem.row_count; ++k) BOOST_TEST((problem.rows[std::size_t(k)].dot(solution.step) >= problem.bounds[std::size_t(k)]));
   }
   BOOST_TEST(optimal > 30);
   BOOST_TEST(infeasible > 0);

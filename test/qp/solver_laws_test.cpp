@@ -14,8 +14,7 @@ BOOST_AUTO_TEST_SUITE(qp_solver_laws)
 namespace {
 
 template <class Scalar>
-using Solvers = std::tuple<feeler::TextbookActiveSet<Scalar>, feeler::InteriorPoint<Scalar>,
-                           feeler::ProjectedGaussSeidel<Scalar>>;
+using Solvers = std::tuple<feeler::TextbookActiveSet<Scalar>, feeler::InteriorPoint<Scalar>, feeler::ProjectedGaussSeidel<Scalar>>;
 
 }  // namespace
 
@@ -25,8 +24,7 @@ BOOST_AUTO_TEST_CASE_TEMPLATE(every_answer_in_double_obeys_the_laws_of_a_qp_solv
 BOOST_AUTO_TEST_CASE_TEMPLATE(every_answer_in_float_obeys_the_laws_of_a_qp_solver, Solver, Solvers<float>) {
   feeler_test::check_qp_laws<Solver>(12, 300, feeler_test::promise_of<Solver>());
 }
-BOOST_AUTO_TEST_CASE_TEMPLATE(every_answer_in_long_double_obeys_the_laws_of_a_qp_solver, Solver,
-                              Solvers<long double>) {
+BOOST_AUTO_TEST_CASE_TEMPLATE(every_answer_in_long_double_obeys_the_laws_of_a_qp_solver, Solver, Solvers<long double>) {
   feeler_test::check_qp_laws<Solver>(13, 300, feeler_test::promise_of<Solver>());
 }
 

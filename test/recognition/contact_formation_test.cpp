@@ -56,11 +56,15 @@ BOOST_AUTO_TEST_CASE(types_are_those_of_table_1) {
     BOOST_TEST(type(tool, face, Convexity::flat) == row[4]);
     BOOST_TEST(type(tool, vertex, Convexity::mixed) == (tool == vertex ? 4 : row[0]));
   }
-  const std::string classes = " ssccccc" "dddcc";  // section III.A: 1 and 2 single, 3 to 7, 11 and 12 combinations, 8 to 10 degenerate
+  const std::string classes =
+      " ssccccc"
+      "dddcc";  // section III.A: 1 and 2 single, 3 to 7, 11 and 12 combinations, 8 to 10 degenerate
   for (int number = 1; number <= 12; ++number) {
     const auto kind = principal_contact_class(PrincipalContactType(number));
     const char expected = classes[std::size_t(number)];
-    BOOST_TEST((kind == (expected == 's' ? PrincipalContactClass::single : expected == 'c' ? PrincipalContactClass::combination : PrincipalContactClass::degenerate)));
+    BOOST_TEST((kind == (expected == 's'   ? PrincipalContactClass::single
+                         : expected == 'c' ? PrincipalContactClass::combination
+                                           : PrincipalContactClass::degenerate)));
     for (int other = 1; other < number; ++other)
       BOOST_TEST(std::string(to_string(PrincipalContactType(number))) != to_string(PrincipalContactType(other)));
   }

@@ -29,8 +29,8 @@ namespace {
 std::string text(const Formation& formation) {
   std::string result = std::to_string(formation.region_count) + " regions:";
   for (const auto& contact : formation)
-    result += " [" + std::to_string(number_of(contact.type)) + " " + to_string(contact.tool.kind) + std::to_string(contact.tool.index) +
-              "-" + to_string(contact.object.kind) + std::to_string(contact.object.index) + " r" + std::to_string(contact.region) + "]";
+    result += " [" + std::to_string(number_of(contact.type)) + " " + to_string(contact.tool.kind) + std::to_string(contact.tool.index) + "-" +
+              to_string(contact.object.kind) + std::to_string(contact.object.index) + " r" + std::to_string(contact.region) + "]";
   return result;
 }
 
@@ -65,9 +65,7 @@ std::optional<Example> example(const Tool& tool, int type, std::mt19937& bits) {
   const FeatureKind tool_kind = type == 1 || type == 3 || type == 4 || type == 8 || type == 9 ? FeatureKind::vertex
                                 : type == 7 || type == 11 || type == 12                       ? FeatureKind::face
                                                                                               : FeatureKind::edge;
-  const int count = tool_kind == FeatureKind::vertex ? tool.vertex_count()
-                    : tool_kind == FeatureKind::edge ? tool.edge_count()
-                                                     : tool.face_count();
+  const int count = tool_kind == FeatureKind::vertex ? tool.vertex_count() : tool_kind == FeatureKind::edge ? tool.edge_count() : tool.face_count();
   if (count == 0) return std::nullopt;
   Example result;
   result.type = type;
@@ -83,15 +81,20 @@ std::optional<Example> example(const Tool& tool, int type, std::mt19937& bits) {
   double angle = type == 2 ? 0.3 + 1.2 * fraction(bits) : 3 * unit(bits);
   Vector place = Vector::Zero();
   switch (type) {
-    case 1: case 6: case 7:
+    case 1:
+    case 6:
+    case 7:
       result.object = floor_object();
       place = {0.3 * unit(bits), 0.3 * unit(bits), 0};
       break;
-    case 2: case 8: case 12:
+    case 2:
+    case 8:
+    case 12:
       result.object = roof(-0.2 - fraction(bits));
       place.y() = 0.3 * unit(bits);
       break;
-    case 3: case 5:
+    case 3:
+    case 5:
       result.object = roof(slope);
       place.y() = 0.3 * unit(bits);
       angle = 0;
@@ -99,7 +102,7 @@ std::optional<Example> example(const Tool& tool, int type, std::mt19937& bits) {
     case 4: result.object = fan(3 + below(bits, 4), slope / 2.5); break;  // mid-way between corners it rises twice as much
     default: result.object = fan(3 + below(bits, 4), -0.2 - fraction(bits)); break;
   }
-  result.object_kind = type == 1 || type == 6 || type == 7 ? FeatureKind::face
+  result.object_kind = type == 1 || type == 6 || type == 7      ? FeatureKind::face
                        : type == 4 || (type >= 9 && type <= 11) ? FeatureKind::vertex
                                                                 : FeatureKind::edge;
   result.pose = set_down(feature, place, below(bits, 3) == 0 ? 0.0 : 1.2e-6 * fraction(bits), angle);

@@ -72,9 +72,13 @@ BOOST_AUTO_TEST_CASE(notched_cube_has_the_features_of_its_surface) {
   // By hand: nine faces; of the cube's twelve edges three are cut and nine whole, and the notch has three valleys and six ridges.
   const auto surface = features_of(notched_cube());
   const Census front = census(surface, SurfaceSide::front);
-  BOOST_TEST((front == Census{{"faces", 9}, {"convex edges", 18}, {"concave edges", 3}, {"convex vertices", 10}, {"concave vertices", 1}, {"mixed vertices", 3}}));
+  BOOST_TEST(
+      (front ==
+       Census{{"faces", 9}, {"convex edges", 18}, {"concave edges", 3}, {"convex vertices", 10}, {"concave vertices", 1}, {"mixed vertices", 3}}));
   const Census back = census(surface, SurfaceSide::back);
-  BOOST_TEST((back == Census{{"faces", 9}, {"convex edges", 3}, {"concave edges", 18}, {"convex vertices", 1}, {"concave vertices", 10}, {"mixed vertices", 3}}));
+  BOOST_TEST(
+      (back ==
+       Census{{"faces", 9}, {"convex edges", 3}, {"concave edges", 18}, {"convex vertices", 1}, {"concave vertices", 10}, {"mixed vertices", 3}}));
 }
 
 BOOST_AUTO_TEST_CASE(another_triangulation_has_the_same_features) {
@@ -127,7 +131,8 @@ BOOST_AUTO_TEST_CASE(rims_of_an_open_sheet_are_ridges_from_both_sides) {
   BOOST_TEST((census(floor, SurfaceSide::front) == Census{{"faces", 1}, {"convex edges", 4}, {"convex vertices", 4}}));
   BOOST_TEST((census(floor, SurfaceSide::back) == Census{{"faces", 1}, {"convex edges", 4}, {"convex vertices", 4}}));
   const auto valley = features_of(roof(0.5).divided());
-  BOOST_TEST((census(valley, SurfaceSide::front) == Census{{"faces", 2}, {"convex edges", 6}, {"concave edges", 1}, {"convex vertices", 4}, {"mixed vertices", 2}}));
+  BOOST_TEST((census(valley, SurfaceSide::front) ==
+              Census{{"faces", 2}, {"convex edges", 6}, {"concave edges", 1}, {"convex vertices", 4}, {"mixed vertices", 2}}));
   BOOST_TEST((census(valley, SurfaceSide::back) == Census{{"faces", 2}, {"convex edges", 7}, {"convex vertices", 6}}));
 }
 

@@ -48,13 +48,10 @@ BOOST_AUTO_TEST_CASE(a_tick_allocates_nothing_and_the_count_would_show_it) {
         BOOST_TEST(run(HapticRenderer(object, tool, scene.settings()), 1500) > 20);
         using Tool = std::remove_cvref_t<decltype(tool)>;
         const auto candidates = [&](auto method) {
-          return HapticRenderer<Tool, DualActiveSet<double>, decltype(method)>(object, tool,
-                                                                               scene.settings());
+          return HapticRenderer<Tool, DualActiveSet<double>, decltype(method)>(object, tool, scene.settings());
         };
         run(candidates(CandidateContacts<>{}), 150);
-        run(candidates(CandidateContacts<CandidateOptions{.collision_detection =
-                                                              CollisionDetection::certificate}>{}),
-            150);
+        run(candidates(CandidateContacts<CandidateOptions{.collision_detection = CollisionDetection::certificate}>{}), 150);
       });
     }
   };
@@ -88,16 +85,13 @@ BOOST_AUTO_TEST_CASE(asking_for_the_derivative_of_the_wrench_allocates_nothing) 
   std::int64_t allocations = 0;
   for (int i = 0; i < 500; ++i) {
     renderer.update(scene.motion(i * 1e-3));
-    allocations +=
-        feeler_test::allocations_during([&] { sum += wrench_derivative(renderer).matrix.sum(); });
+    allocations += feeler_test::allocations_during([&] { sum += wrench_derivative(renderer).matrix.sum(); });
   }
   BOOST_TEST(allocations == 0);
   BOOST_TEST(sum < 0);
 }
 #else
-BOOST_AUTO_TEST_CASE(allocations_are_not_counted_with_a_sanitizer) {
-  BOOST_TEST_MESSAGE("skipped: the sanitizer has a malloc of its own");
-}
+BOOST_AUTO_TEST_CASE(allocations_are_not_counted_with_a_sanitizer) { BOOST_TEST_MESSAGE("skipped: the sanitizer has a malloc of its own"); }
 #endif
 
 BOOST_AUTO_TEST_SUITE_END()

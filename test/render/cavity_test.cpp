@@ -114,8 +114,8 @@ BOOST_AUTO_TEST_CASE(in_a_perfect_fit_a_tilted_device_leaves_the_turn_that_is_ne
   double worst = 0;
   for (int i = 0; i <= 300; ++i) {
     const double t = i * 1e-3;
-    const Pose<double> haptic =
-        scenes::pose_of({0.3 * std::sin(4 * t), 0.25 * std::sin(9 * t), 0.35 * std::sin(3.7 * t)}, {0.006 * std::sin(7 * t), 0.004 * std::sin(9 * t), 0.0015 * std::sin(11 * t)});
+    const Pose<double> haptic = scenes::pose_of({0.3 * std::sin(4 * t), 0.25 * std::sin(9 * t), 0.35 * std::sin(3.7 * t)},
+                                                {0.006 * std::sin(7 * t), 0.004 * std::sin(9 * t), 0.0015 * std::sin(11 * t)});
     const auto& tick = cavity.renderer.update(haptic);
     // The rotation about y nearest to R_h has half its angle at atan2(y, w) of the quaternion.
     const double turn = 2 * std::atan2(haptic.rotation.y(), haptic.rotation.w());
@@ -159,8 +159,8 @@ BOOST_AUTO_TEST_CASE(the_wrench_is_the_stiffness_times_the_pose_difference_and_t
       worst_torque_sum = std::max(worst_torque_sum, (torque - tick.wrench.torque).norm());
     }
   }
-  BOOST_TEST_MESSAGE(contact_ticks << " held contact ticks; wrench off its formula by " << worst_force << " N, " << worst_torque << " N m; off the sum of contacts by "
-                                   << worst_sum << " N, " << worst_torque_sum << " N m");
+  BOOST_TEST_MESSAGE(contact_ticks << " held contact ticks; wrench off its formula by " << worst_force << " N, " << worst_torque
+                                   << " N m; off the sum of contacts by " << worst_sum << " N, " << worst_torque_sum << " N m");
   BOOST_TEST(contact_ticks > 50);
   BOOST_TEST(worst_force <= 1e-11);
   BOOST_TEST(worst_torque <= 1e-13);
@@ -182,7 +182,8 @@ BOOST_AUTO_TEST_CASE(an_anisotropic_torque_is_the_gradient_of_the_stiffness_ener
     const auto energy = [&](const WideVector& moved_by, const WideVector& turned_by) {
       const WideTwist e = twist_between(CheckedPose(WideVector(device.translation + moved_by), rotation_by(turned_by) * device.rotation), graphic);
       return (e.linear.dot(settings.stiffness.translational.cast<WideReal>().cwiseProduct(e.linear)) +
-              e.angular.dot(settings.stiffness.rotational.cast<WideReal>().cwiseProduct(e.angular))) / 2;
+              e.angular.dot(settings.stiffness.rotational.cast<WideReal>().cwiseProduct(e.angular))) /
+             2;
     };
     constexpr WideReal step = 1e-6L;
     for (int k = 0; k < 3; ++k) {

@@ -36,9 +36,7 @@ struct Scene {
       : object(mesh.vertices, mesh.triangles), renderer(object, tool, settings) {}
 };
 
-Box<double> cube(double half) {
-  return Box<double>(Vector3<double>::Constant(half));
-}
+Box<double> cube(double half) { return Box<double>(Vector3<double>::Constant(half)); }
 
 /// A square of n × n squares at height 0, 1 m wide.
 ClosedMesh ground(int n) {
@@ -79,8 +77,7 @@ BOOST_AUTO_TEST_CASE(a_box_in_the_ground_comes_up_by_its_depth_on_coarse_ground_
         BOOST_TEST(found.is_found);
         BOOST_TEST((found.status == Status::penetrating));
         BOOST_TEST(std::abs(found.depth - depth) <= 3 * margin);
-        BOOST_TEST((found.pose.translation - pose.translation - Vector3<double>(0, 0, depth)).norm() <=
-                   3 * margin);
+        BOOST_TEST((found.pose.translation - pose.translation - Vector3<double>(0, 0, depth)).norm() <= 3 * margin);
         BOOST_TEST_REQUIRE(!found.contacts.empty());
         for (const auto& contact : found.contacts) {
           BOOST_TEST(std::abs(contact.point_world.z()) <= 3 * margin);
@@ -132,11 +129,9 @@ BOOST_AUTO_TEST_CASE(a_tool_that_is_caught_in_a_tight_fit_stays_in_it) {
   auto setting = scenes::cavity(2e-5);
   std::mt19937 bits(22);
   for (int i = 0; i < ticks_to_run(20); ++i) {
-    Scene scene({setting.vertices, setting.triangles}, std::get<Box<double>>(setting.tool),
-                setting.settings());
+    Scene scene({setting.vertices, setting.triangles}, std::get<Box<double>>(setting.tool), setting.settings());
     const Pose<double> pose =
-        scenes::pose_of(0.01 * feeler_test::random_vector(bits),
-                        Vector3<double>(1e-3, 1e-4, 1e-3).cwiseProduct(feeler_test::random_vector(bits)));
+        scenes::pose_of(0.01 * feeler_test::random_vector(bits), Vector3<double>(1e-3, 1e-4, 1e-3).cwiseProduct(feeler_test::random_vector(bits)));
     const auto found = nearest_free_pose(scene.renderer, pose);
     BOOST_TEST(found.is_found);
     BOOST_TEST(found.depth < 5e-4);
@@ -151,8 +146,7 @@ BOOST_AUTO_TEST_CASE(what_is_found_in_random_soups_is_free_and_no_farther_than_t
     ClosedMesh soup{Points<double>(3 * triangles, 3), Triangles(triangles, 3)};
     for (int t = 0; t < triangles; ++t) {
       const Vector3<double> middle = 0.05 * feeler_test::random_vector(bits);
-      for (int k = 0; k < 3; ++k)
-        soup.vertices.row(3 * t + k) = (middle + 0.03 * feeler_test::random_vector(bits)).transpose();
+      for (int k = 0; k < 3; ++k) soup.vertices.row(3 * t + k) = (middle + 0.03 * feeler_test::random_vector(bits)).transpose();
       soup.triangles.row(t) << 3 * t, 3 * t + 1, 3 * t + 2;
     }
     const Box<double> tool({0.01, 0.006, 0.02});
@@ -170,8 +164,7 @@ BOOST_AUTO_TEST_CASE(what_is_found_in_random_soups_is_free_and_no_farther_than_t
     if (triangles == 1) BOOST_TEST(found.depth <= depth + 3 * margin);
     // No nearer pose is hit by chance.
     for (int k = 0; k < 300; ++k) {
-      const Pose<double> near{pose.translation + 0.7 * found.depth * feeler_test::random_direction(bits),
-                              pose.rotation};
+      const Pose<double> near{pose.translation + 0.7 * found.depth * feeler_test::random_direction(bits), pose.rotation};
       BOOST_TEST((witness.depth_at(near) > 0), "soup " << i << ": a free pose at 0.7 of " << found.depth);
     }
   }
@@ -193,8 +186,7 @@ BOOST_AUTO_TEST_CASE(out_of_rough_ground_a_pebble_comes_up) {
 }
 
 BOOST_AUTO_TEST_CASE(a_compound_tool_comes_free_with_all_its_pieces) {
-  const std::array pieces{block({-0.02, -0.005, 0}, {0.02, 0.005, 0.01}).vertices,
-                          block({-0.005, -0.005, -0.03}, {0.005, 0.005, 0}).vertices};
+  const std::array pieces{block({-0.02, -0.005, 0}, {0.02, 0.005, 0.01}).vertices, block({-0.005, -0.005, -0.03}, {0.005, 0.005, 0}).vertices};
   Scene scene(ground(20), CompoundTool<ConvexPolytope<double>>::hulls_of(pieces));
   const auto found = nearest_free_pose(scene.renderer, {.translation = {0.003, 0.001, 0.028}});
   BOOST_TEST(found.is_found);
@@ -225,9 +217,7 @@ BOOST_AUTO_TEST_CASE(where_nothing_is_free_within_the_bound_it_says_so) {
 BOOST_AUTO_TEST_CASE(a_search_allocates_nothing) {
   Scene scene(ball(0.05, 8), cube(0.005));
   bool is_found = false;
-  BOOST_TEST(feeler_test::allocations_during([&] {
-               is_found = nearest_free_pose(scene.renderer, {.translation = {0.03, 0, 0.01}}).is_found;
-             }) == 0);
+  BOOST_TEST(feeler_test::allocations_during([&] { is_found = nearest_free_pose(scene.renderer, {.translation = {0.03, 0, 0.01}}).is_found; }) == 0);
   BOOST_TEST(is_found);
 }
 #endif

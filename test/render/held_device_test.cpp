@@ -93,9 +93,10 @@ Distances distances_of(const scenes::Scene& scene, int ticks, int every, std::ui
 
 Distances report(const scenes::Scene& scene, const std::string& name, int ticks, int every, std::uint32_t seed) {
   Distances d = distances_of(scene, ticks_to_run(ticks), every, seed);
-  BOOST_TEST_MESSAGE(name << ": " << d.converged.size() << " converged contact ticks, " << d.unconverged << " unconverged; distance to the local solution: median "
-                          << d.at(0.5) << ", 98 % " << d.at(0.98) << ", largest " << d.at(1) << " m; re-solved to more energy " << d.rose << "; " << d.tried << " free perturbations, better "
-                          << d.better << ", most gained beyond the margin " << d.most_gained << " m2");
+  BOOST_TEST_MESSAGE(name << ": " << d.converged.size() << " converged contact ticks, " << d.unconverged
+                          << " unconverged; distance to the local solution: median " << d.at(0.5) << ", 98 % " << d.at(0.98) << ", largest "
+                          << d.at(1) << " m; re-solved to more energy " << d.rose << "; " << d.tried << " free perturbations, better " << d.better
+                          << ", most gained beyond the margin " << d.most_gained << " m2");
   return d;
 }
 
@@ -107,7 +108,8 @@ void check_rest_in(const scenes::Scene& scene, const std::string& name, int late
 
 BOOST_AUTO_TEST_CASE(a_held_device_makes_no_jitter_in_cavities_and_on_plates) {
   // Without clearance rows that have not held the tool for a hundred ticks yield to others, and the last bits may change once more.
-  for (const double clearance : {1e-3, 1e-5, 0.0}) check_rest_in(scenes::cavity(clearance), "cavity " + std::to_string(clearance), clearance > 0 ? 60 : 110);
+  for (const double clearance : {1e-3, 1e-5, 0.0})
+    check_rest_in(scenes::cavity(clearance), "cavity " + std::to_string(clearance), clearance > 0 ? 60 : 110);
   check_rest_in(scenes::plate(0.3), "plate");
 }
 
@@ -167,8 +169,7 @@ BOOST_AUTO_TEST_CASE(a_tool_whose_pose_is_called_converged_is_still_there_a_hund
         if (!renderer.update(haptic).converged()) continue;
         ++converged;
         auto held = renderer;
-        for (int k = 0; k < 100 && !(held.update(haptic).converged() && held.tick().path.empty()); ++k) {
-        }
+        for (int k = 0; k < 100 && !(held.update(haptic).converged() && held.tick().path.empty()); ++k) {}
         const auto moved = energy_of(held.tick().graphic_pose, renderer.tick().graphic_pose, scene.length);
         left += moved > 0.5e-14L ? 1 : 0;  // by more than 0.1 µm
       }

@@ -27,7 +27,8 @@ struct Account {
 
 /// Runs a motion of poses that need not be finite, with the checker on every tick and on the way of every `way_every`th.
 template <class HapticAt>
-Account account_of(const scenes::Scene& scene, const Settings<double>& settings, int ticks, int way_every, double depth_allowed, const HapticAt& haptic_at) {
+Account account_of(const scenes::Scene& scene, const Settings<double>& settings, int ticks, int way_every, double depth_allowed,
+                   const HapticAt& haptic_at) {
   Account account;
   const TriangleMesh<double> object(scene.vertices, scene.triangles);
   with_tool_of(scene, [&](const auto& tool) {
@@ -53,8 +54,8 @@ Account account_of(const scenes::Scene& scene, const Settings<double>& settings,
 }
 
 void check(const std::string& name, const Account& account) {
-  BOOST_TEST_MESSAGE(name << ": " << account.ticks << " ticks, unconverged " << account.unconverged << ", deepest " << account.deepest << " m, on the way "
-                          << account.deepest_on_way << " m");
+  BOOST_TEST_MESSAGE(name << ": " << account.ticks << " ticks, unconverged " << account.unconverged << ", deepest " << account.deepest
+                          << " m, on the way " << account.deepest_on_way << " m");
   BOOST_TEST_CONTEXT(name) {
     BOOST_TEST(account.invalid == 0);
     BOOST_TEST(account.not_free == 0);
@@ -133,7 +134,8 @@ BOOST_AUTO_TEST_CASE(turns_that_weigh_differently_by_axis_make_no_tool_penetrate
   Pose<double> hand = scene.start;
   const Vector3<double> middle = scene.motion(0).translation;
   const auto leaps = [&](int i) {
-    if (i % 5 == 0) hand = {middle + 0.05 * random.unit() * random.direction(), exp_rotation<double>(std::numbers::pi * random.unit() * random.direction())};
+    if (i % 5 == 0)
+      hand = {middle + 0.05 * random.unit() * random.direction(), exp_rotation<double>(std::numbers::pi * random.unit() * random.direction())};
     return hand;
   };
   check("plate", account_of(scene, settings, ticks_to_run(2000), 1, touching_depth, leaps));
@@ -153,7 +155,8 @@ BOOST_AUTO_TEST_CASE(half_a_turn_is_made_in_legs_that_tell_which_way_round_it_we
       const Pose<double> start{{0, 0, 0}, exp_rotation<double>({0, 0, 6 * random.unit()})};
       BOOST_TEST_REQUIRE((renderer.reset(start) == Status::converged));
       const double azimuth = 6 * random.unit();
-      const auto& tick = renderer.update({start.translation, exp_rotation<double>(std::numbers::pi * Vector3<double>(std::cos(azimuth), std::sin(azimuth), 0)) * start.rotation});
+      const auto& tick = renderer.update(
+          {start.translation, exp_rotation<double>(std::numbers::pi * Vector3<double>(std::cos(azimuth), std::sin(azimuth), 0)) * start.rotation});
       BOOST_TEST(witness.depth_on_way(start, tick, 40) == 0);
       stopped += !tick.contacts.empty();
       const Pose<double>* from = &start;

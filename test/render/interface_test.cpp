@@ -217,7 +217,8 @@ BOOST_AUTO_TEST_CASE(in_free_space_the_wrench_is_exactly_zero_and_the_pose_is_th
     BOOST_TEST_REQUIRE((renderer.reset({{0, 0, 0.5}, Quaternion<double>::Identity()}) == Status::converged));
     for (int i = 0; i < 500; ++i) {
       const double t = i * 1e-3;
-      const Pose<double> haptic = scenes::pose_of({std::sin(7 * t), std::sin(9 * t), 2 * std::sin(5 * t)}, {0.3 * std::sin(3 * t), 0.2 * std::sin(4 * t), 0.5 + 0.4 * std::sin(2 * t)});
+      const Pose<double> haptic = scenes::pose_of({std::sin(7 * t), std::sin(9 * t), 2 * std::sin(5 * t)},
+                                                  {0.3 * std::sin(3 * t), 0.2 * std::sin(4 * t), 0.5 + 0.4 * std::sin(2 * t)});
       const auto& tick = renderer.update(haptic);
       BOOST_TEST((tick.status == Status::converged));
       BOOST_TEST(tick.wrench.force.isZero(0));

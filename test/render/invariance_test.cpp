@@ -79,8 +79,8 @@ Difference difference_of(const scenes::Scene& scene, const Variant& variant, int
 
 Difference report(const std::string& what, const scenes::Scene& scene, const Variant& variant, int ticks) {
   const Difference d = difference_of(scene, variant, ticks_to_run(ticks));
-  BOOST_TEST_MESSAGE(scene.name << ", " << what << ": " << d.identical << " of " << d.ticks << " ticks bit-identical, largest difference " << d.largest << " m on "
-                                << d.compared << " converged ticks");
+  BOOST_TEST_MESSAGE(scene.name << ", " << what << ": " << d.identical << " of " << d.ticks << " ticks bit-identical, largest difference "
+                                << d.largest << " m on " << d.compared << " converged ticks");
   return d;
 }
 
@@ -107,7 +107,8 @@ Variant with_scaled_lengths(const scenes::Scene& scene, double s) {
 
 Variant moved_rigidly(const scenes::Scene& scene, const Pose<double>& by) {
   Variant variant(scene);
-  for (Eigen::Index i = 0; i < variant.vertices.rows(); ++i) variant.vertices.row(i) = (by * Vector3<double>(scene.vertices.row(i).transpose())).transpose();
+  for (Eigen::Index i = 0; i < variant.vertices.rows(); ++i)
+    variant.vertices.row(i) = (by * Vector3<double>(scene.vertices.row(i).transpose())).transpose();
   variant.there = [by](const Pose<double>& pose) { return Pose<double>{by * pose.translation, (by.rotation * pose.rotation).normalized()}; };
   variant.back = [by](const Pose<double>& pose) {
     return Pose<double>{by.rotation.conjugate() * (pose.translation - by.translation), (by.rotation.conjugate() * pose.rotation).normalized()};
@@ -135,8 +136,8 @@ BOOST_AUTO_TEST_CASE(a_stiffness_scaled_by_a_power_of_two_scales_the_wrench_and_
       for (int i = 0; i < ticks_to_run(1500); ++i) {
         renderer.update(scene->motion(i * 1e-3));
         weak.update(scene->motion(i * 1e-3));
-        different += !is_same(renderer.tick().graphic_pose, weak.tick().graphic_pose) || renderer.tick().wrench.force != 4 * weak.tick().wrench.force ||
-                     renderer.tick().wrench.torque != 4 * weak.tick().wrench.torque;
+        different += !is_same(renderer.tick().graphic_pose, weak.tick().graphic_pose) ||
+                     renderer.tick().wrench.force != 4 * weak.tick().wrench.force || renderer.tick().wrench.torque != 4 * weak.tick().wrench.torque;
       }
       BOOST_TEST(different == 0);
     });

@@ -73,16 +73,19 @@ void try_to_break_out(const Tool& tool, double gap, std::uint32_t seed) {
   for (int walls_count = 1; walls_count <= 4; ++walls_count) {
     for (const double speed : speeds) {
       constexpr double reach = 0.03;
-      run(tool, walls_count, gap, ticks_to_run(600),
+      run(
+          tool, walls_count, gap, ticks_to_run(600),
           [speed](int i) {
             const double t = i * 1e-3, phase = speed / reach * t;
-            return scenes::pose_of({1.4 * std::sin(3.3 * t), 1.3 * std::sin(2.7 * t), 1.9 * std::sin(4.1 * t)},
-                                   {0.03 * std::sin(2.1 * t), reach * std::sin(phase) * std::sin(1.3 * t), reach * std::sin(phase) * std::cos(1.3 * t)});
+            return scenes::pose_of(
+                {1.4 * std::sin(3.3 * t), 1.3 * std::sin(2.7 * t), 1.9 * std::sin(4.1 * t)},
+                {0.03 * std::sin(2.1 * t), reach * std::sin(phase) * std::sin(1.3 * t), reach * std::sin(phase) * std::cos(1.3 * t)});
           },
           count);
     }
     scenes::RandomBits random(seed + std::uint32_t(walls_count));
-    run(tool, walls_count, gap, ticks_to_run(600),
+    run(
+        tool, walls_count, gap, ticks_to_run(600),
         [&](int i) {
           const Vector3<double> jitter = 0.01 * random.direction();
           const double side = i % 2 == 0 ? 0.03 : -0.03;

@@ -45,13 +45,10 @@ using feeler_test::ball;
 using feeler_test::block;
 using feeler_test::ClosedMesh;
 
-ClosedMesh cube(double half) {
-  return block(Vector3<double>::Constant(-half), Vector3<double>::Constant(half));
-}
+ClosedMesh cube(double half) { return block(Vector3<double>::Constant(-half), Vector3<double>::Constant(half)); }
 
 /// What a reset says of a box in a mesh.
-Status status_of(const ClosedMesh& mesh, const Pose<double>& pose, double half = 0.005,
-                 const Settings<double>& settings = {}) {
+Status status_of(const ClosedMesh& mesh, const Pose<double>& pose, double half = 0.005, const Settings<double>& settings = {}) {
   const TriangleMesh<double> object(mesh.vertices, mesh.triangles);
   HapticRenderer renderer(object, Box<double>(Vector3<double>::Constant(half)), settings);
   return renderer.reset(pose);
@@ -62,14 +59,11 @@ const Pose<double> origin;
 }  // namespace
 
 BOOST_AUTO_TEST_CASE(a_renderer_that_is_reset_does_what_a_new_one_does) {
-  for (const auto& scene :
-       {scenes::cavity(1e-5), scenes::steps(), scenes::steps_with_prism(), scenes::terrain(71)}) {
-    with_tool_of(scene,
-                 [&](const auto& tool) { BOOST_TEST(ticks_that_differ(scene, tool) == 0, scene.name); });
+  for (const auto& scene : {scenes::cavity(1e-5), scenes::steps(), scenes::steps_with_prism(), scenes::terrain(71)}) {
+    with_tool_of(scene, [&](const auto& tool) { BOOST_TEST(ticks_that_differ(scene, tool) == 0, scene.name); });
   }
   const auto scene = scenes::spline(2e-5);
-  BOOST_TEST(ticks_that_differ(scene, CompoundTool<ConvexPolytope<double>>::hulls_of(scene.pieces)) == 0,
-             scene.name);
+  BOOST_TEST(ticks_that_differ(scene, CompoundTool<ConvexPolytope<double>>::hulls_of(scene.pieces)) == 0, scene.name);
 }
 
 BOOST_AUTO_TEST_CASE(a_start_in_a_closed_solid_is_inside_and_no_force_follows) {
@@ -98,8 +92,7 @@ BOOST_AUTO_TEST_CASE(a_reset_in_a_random_pose_says_free_penetrating_or_inside_as
     const Vector3<double> off = 0.08 * feeler_test::random_vector(bits);
     const Pose<double> pose{place + rotation * off, feeler_test::random_rotation(bits)};
     // A ball of 50 mm whose facets lie beyond 49 mm, and a block.
-    const double from_ball = off.norm() - 0.05,
-                 from_block = (off.cwiseAbs() - Vector3<double>(0.06, 0.05, 0.03)).maxCoeff();
+    const double from_ball = off.norm() - 0.05, from_block = (off.cwiseAbs() - Vector3<double>(0.06, 0.05, 0.03)).maxCoeff();
     const auto check = [&](const ClosedMesh& mesh, double height, double facet) {
       const Status status = status_of(mesh.moved(rotation, place), pose);
       if (height > reach && ++count[0] > 0) BOOST_TEST((status == Status::converged));
@@ -115,8 +108,7 @@ BOOST_AUTO_TEST_CASE(a_reset_in_a_random_pose_says_free_penetrating_or_inside_as
 BOOST_AUTO_TEST_CASE(cavities_rooms_and_open_meshes_are_free_inside) {
   BOOST_TEST((status_of(cube(0.05), origin) == Status::inside));
   BOOST_TEST((status_of(cube(0.05).with(cube(0.02).inverted()), origin) == Status::converged));  // a cavity
-  BOOST_TEST((status_of(cube(0.05).with(cube(0.02).inverted()), {{0.035, 0, 0}, origin.rotation}) ==
-              Status::inside));                                                 // its wall
+  BOOST_TEST((status_of(cube(0.05).with(cube(0.02).inverted()), {{0.035, 0, 0}, origin.rotation}) == Status::inside));  // its wall
   BOOST_TEST((status_of(cube(0.05).inverted(), origin) == Status::converged));  // a room
   BOOST_TEST((status_of(cube(0.05).opened(1), origin) == Status::converged));
   BOOST_TEST((status_of(ball(0.05, 6).opened(3), origin) == Status::converged));
@@ -129,9 +121,7 @@ BOOST_AUTO_TEST_CASE(cavities_rooms_and_open_meshes_are_free_inside) {
 
 BOOST_AUTO_TEST_CASE(of_several_meshes_each_is_asked_by_itself) {
   MeshAssembly<double> parts;
-  const auto add = [&](const ClosedMesh& mesh, const Vector3<double>& place) {
-    parts.add(mesh.vertices, mesh.triangles, {.translation = place});
-  };
+  const auto add = [&](const ClosedMesh& mesh, const Vector3<double>& place) { parts.add(mesh.vertices, mesh.triangles, {.translation = place}); };
   add(cube(0.02), {0, 0, 0});
   add(cube(0.02), {0.04, 0, 0});  // shares a face with the first
   add(cube(0.02).opened(2), {0.2, 0, 0});
@@ -149,8 +139,7 @@ BOOST_AUTO_TEST_CASE(of_several_meshes_each_is_asked_by_itself) {
 BOOST_AUTO_TEST_CASE(a_compound_tool_is_inside_where_one_piece_is) {
   const ClosedMesh mesh = cube(0.05);
   const TriangleMesh<double> object(mesh.vertices, mesh.triangles);
-  const std::array pieces{cube(0.005).vertices,
-                          cube(0.005).moved(origin.rotation, {0.2, 0, 0}).vertices};  // far apart
+  const std::array pieces{cube(0.005).vertices, cube(0.005).moved(origin.rotation, {0.2, 0, 0}).vertices};  // far apart
   HapticRenderer renderer(object, CompoundTool<ConvexPolytope<double>>::hulls_of(pieces));
   BOOST_TEST((renderer.reset({.translation = {0, 0, 0}}) == Status::inside));
   BOOST_TEST((renderer.reset({.translation = {-0.2, 0, 0}}) == Status::inside));
@@ -162,23 +151,19 @@ BOOST_AUTO_TEST_CASE(a_thin_tool_on_the_surface_is_free_and_below_it_inside) {
   const ClosedMesh mesh = cube(0.05);
   const TriangleMesh<double> object(mesh.vertices, mesh.triangles);
   HapticRenderer point(object, Point<double>(Vector3<double>::Zero()));
-  for (const double depth : {-1e-3, 0.0, 1e-17, 1e-12})
-    BOOST_TEST((point.reset({.translation = {0.01, 0.02, 0.05 - depth}}) == Status::converged));
-  for (const double depth : {1e-9, 1e-3})
-    BOOST_TEST((point.reset({.translation = {0.01, 0.02, 0.05 - depth}}) == Status::inside));
+  for (const double depth : {-1e-3, 0.0, 1e-17, 1e-12}) BOOST_TEST((point.reset({.translation = {0.01, 0.02, 0.05 - depth}}) == Status::converged));
+  for (const double depth : {1e-9, 1e-3}) BOOST_TEST((point.reset({.translation = {0.01, 0.02, 0.05 - depth}}) == Status::inside));
 }
 
 BOOST_AUTO_TEST_CASE(a_reset_at_a_graphic_pose_is_taken) {
   std::mt19937 bits(12);
-  const ClosedMesh mesh =
-      ball(0.05, 8).with(cube(0.03).moved(feeler_test::random_rotation(bits), {0.07, 0, 0}));
+  const ClosedMesh mesh = ball(0.05, 8).with(cube(0.03).moved(feeler_test::random_rotation(bits), {0.07, 0, 0}));
   const TriangleMesh<double> object(mesh.vertices, mesh.triangles);
   const auto check = [&](const auto& tool) {
     HapticRenderer renderer(object, tool), other = renderer;
     BOOST_TEST((renderer.reset({.translation = {0, 0, 0.1}}) == Status::converged));
     for (int i = 0; i < ticks_to_run(300); ++i) {
-      const auto& tick =
-          renderer.update({0.05 * feeler_test::random_vector(bits), feeler_test::random_rotation(bits)});
+      const auto& tick = renderer.update({0.05 * feeler_test::random_vector(bits), feeler_test::random_rotation(bits)});
       BOOST_TEST((other.reset(tick.graphic_pose) == Status::converged));
     }
   };

@@ -23,8 +23,7 @@ constexpr double half_width = 0.05;
 TriangleMesh<double> roof() {
   const double eaves = -half_width * std::tan(slope);
   Points<double> vertices(6, 3);
-  vertices << -half_width, -0.1, eaves, 0, -0.1, 0, half_width, -0.1, eaves, -half_width, 0.1, eaves, 0, 0.1,
-      0, half_width, 0.1, eaves;
+  vertices << -half_width, -0.1, eaves, 0, -0.1, 0, half_width, -0.1, eaves, -half_width, 0.1, eaves, 0, 0.1, 0, half_width, 0.1, eaves;
   Triangles triangles(4, 3);
   triangles << 0, 1, 4, 0, 4, 3, 1, 2, 5, 1, 5, 4;
   return {vertices, triangles};
@@ -48,10 +47,8 @@ Crossing cross(const Tool& tool, double tip, double depth, double turn) {
   double last_side = -1;
   for (int i = 0; i < 450; ++i) {
     const double phase = std::max(0, i - 50) * 0.02;
-    hand.translation = {-0.01 * std::cos(phase), 0.003 * std::cos(0.7 * phase),
-                        (i < 50 ? 0.02 - (0.02 + depth) * i / 50 : -depth) - tip};
-    hand.rotation =
-        Eigen::Quaterniond(Eigen::AngleAxisd(turn * std::sin(phase), Eigen::Vector3d(1, 2, 3).normalized()));
+    hand.translation = {-0.01 * std::cos(phase), 0.003 * std::cos(0.7 * phase), (i < 50 ? 0.02 - (0.02 + depth) * i / 50 : -depth) - tip};
+    hand.rotation = Eigen::Quaterniond(Eigen::AngleAxisd(turn * std::sin(phase), Eigen::Vector3d(1, 2, 3).normalized()));
     const auto& tick = renderer.update(hand);
     result.most_iterations = std::max(result.most_iterations, tick.iterations);
     result.unconverged += tick.converged() ? 0 : 1;

@@ -53,7 +53,10 @@ class Watch {
   double deepest = 0;
 
   Watch(const scenes::Setting& scene, const Tool& tool, double depth_allowed)
-      : triangle_count_(int(scene.triangles.rows())), object_(scene.vertices, scene.triangles), pieces_(checked_pieces(tool)), allowed_(depth_allowed) {}
+      : triangle_count_(int(scene.triangles.rows())),
+        object_(scene.vertices, scene.triangles),
+        pieces_(checked_pieces(tool)),
+        allowed_(depth_allowed) {}
 
   template <class Renderer>
   void update(Renderer& renderer, const Pose<double>& haptic, int samples) {
@@ -77,7 +80,8 @@ class Watch {
   }
 
   void check(const std::string& name, bool must_touch = true) const {
-    BOOST_TEST_MESSAGE(name << ": " << ticks << " ticks, " << contact_ticks << " in contact, unconverged " << unconverged << ", deepest " << deepest << " m");
+    BOOST_TEST_MESSAGE(name << ": " << ticks << " ticks, " << contact_ticks << " in contact, unconverged " << unconverged << ", deepest " << deepest
+                            << " m");
     BOOST_TEST_CONTEXT(name) {
       BOOST_TEST(invalid == 0);
       BOOST_TEST(not_free == 0);
@@ -137,7 +141,8 @@ scenes::Setting slivers(std::uint32_t seed) {
   const auto symmetric = [&] { return 2 * random.unit() - 1; };
   std::vector<Vector3<double>> corners;
   for (int i = 0; i < 150; ++i) {
-    const Vector3<double> from = 0.08 * Vector3<double>(symmetric(), symmetric(), symmetric()), along = std::pow(10.0, -2 + random.unit()) * random.direction();
+    const Vector3<double> from = 0.08 * Vector3<double>(symmetric(), symmetric(), symmetric()),
+                          along = std::pow(10.0, -2 + random.unit()) * random.direction();
     corners.insert(corners.end(), {from, from + along, from + random.unit() * along + std::pow(10.0, -18 + 14 * random.unit()) * random.direction()});
   }
   scenes::Setting scene;
@@ -163,10 +168,11 @@ void try_to_break_out(const Tool& tool, double gap, const std::string& name, std
       for (int i = 0; i < ticks_to_run(400); ++i) {
         const double t = i * 1e-3, phase = speed / 0.03 * t, side = i % 2 == 0 ? 0.03 : -0.03;
         const Pose<double> haptic =
-            speed > 0 ? scenes::pose_of({1.4 * std::sin(3.3 * t), 1.3 * std::sin(2.7 * t), 1.9 * std::sin(4.1 * t)},
-                                        {0.03 * std::sin(2.1 * t), 0.03 * std::sin(phase) * std::sin(1.3 * t), 0.03 * std::sin(phase) * std::cos(1.3 * t)})
-                      : Pose<double>{0.01 * random.direction() + Vector3<double>(0, count > 2 && random.unit() < 0.5 ? side : 0, side),
-                                     exp_rotation<double>(std::numbers::pi * random.unit() * random.direction())};
+            speed > 0
+                ? scenes::pose_of({1.4 * std::sin(3.3 * t), 1.3 * std::sin(2.7 * t), 1.9 * std::sin(4.1 * t)},
+                                  {0.03 * std::sin(2.1 * t), 0.03 * std::sin(phase) * std::sin(1.3 * t), 0.03 * std::sin(phase) * std::cos(1.3 * t)})
+                : Pose<double>{0.01 * random.direction() + Vector3<double>(0, count > 2 && random.unit() < 0.5 ? side : 0, side),
+                               exp_rotation<double>(std::numbers::pi * random.unit() * random.direction())};
         watch.update(renderer, haptic, 5);
         for (int k = 0; k < tool.vertex_count(); ++k) {
           const Vector3<double> v = renderer.tick().graphic_pose * Vector3<double>(tool.vertex(k));
@@ -188,7 +194,8 @@ BOOST_AUTO_TEST_CASE(a_hostile_device_never_makes_a_round_tool_penetrate_a_cavit
     const std::string name = "cavity " + std::to_string(clearance);
     check_hostile(scenes::cavity(clearance), Sphere<double>(0.01), name + ", sphere", 2400, allowed, 71);
     check_hostile(scenes::cavity(clearance), Capsule<double>({{-0.006, 0, 0}, {0.006, 0, 0}}, 0.004), name + ", capsule", 2400, allowed, 72);
-    check_hostile(scenes::cavity(clearance), RoundedBox<double>(Box<double>(Vector3<double>::Constant(0.008)), 0.002), name + ", rounded cube", 1200, allowed, 73);
+    check_hostile(scenes::cavity(clearance), RoundedBox<double>(Box<double>(Vector3<double>::Constant(0.008)), 0.002), name + ", rounded cube", 1200,
+                  allowed, 73);
   }
 }
 
@@ -219,7 +226,8 @@ BOOST_AUTO_TEST_CASE(a_leaping_device_never_wears_the_clearance_of_a_round_tool_
     scenes::RandomBits random(seed);
     for (int i = 0; i < ticks_to_run(300); ++i) {
       const Vector3<double> to(random.unit(), random.unit(), random.unit());
-      watch.update(renderer, {0.12 * (to - Vector3<double>::Constant(0.5)), exp_rotation<double>(std::numbers::pi * random.unit() * random.direction())}, 3);
+      watch.update(renderer,
+                   {0.12 * (to - Vector3<double>::Constant(0.5)), exp_rotation<double>(std::numbers::pi * random.unit() * random.direction())}, 3);
     }
     watch.check("slivers of seed " + std::to_string(seed));
   }
@@ -265,7 +273,8 @@ BOOST_AUTO_TEST_CASE(a_float_renderer_gives_the_poses_of_a_double_one_to_a_micro
       far += error > 1e-6;
       worst = std::max(worst, error);
     }
-    BOOST_TEST_MESSAGE(name << ": float and double differ by at most " << worst << " m on " << compared << " converged ticks, more than 1 um on " << far);
+    BOOST_TEST_MESSAGE(name << ": float and double differ by at most " << worst << " m on " << compared << " converged ticks, more than 1 um on "
+                            << far);
     BOOST_TEST(compared > ticks_to_run(1500) / 2);
     BOOST_TEST(far <= compared / 200);
   };

@@ -160,7 +160,8 @@ BOOST_AUTO_TEST_CASE(a_sphere_between_two_plates_without_clearance_slides_freely
     const auto& tick = beside.update({{0.001, -0.001, 0.001}, Quaternion<double>::Identity()});
     BOOST_TEST((tick.graphic_pose.translation - Vector3<double>(0.001, -0.001, 0)).norm() <= no_clearance_depth);
   }
-  BOOST_TEST_MESSAGE("free directions off by " << worst_free << " m, across by " << worst_across << " m, deepest " << deepest << " m, unconverged " << unconverged);
+  BOOST_TEST_MESSAGE("free directions off by " << worst_free << " m, across by " << worst_across << " m, deepest " << deepest << " m, unconverged "
+                                               << unconverged);
   BOOST_TEST(worst_free <= 1e-9 * 0.03);
   BOOST_TEST(worst_across <= no_clearance_depth);
   BOOST_TEST(deepest <= no_clearance_depth);
@@ -267,14 +268,16 @@ BOOST_AUTO_TEST_CASE(a_rounded_box_lies_on_a_slope_as_its_core_does_on_a_higher_
 BOOST_AUTO_TEST_CASE(a_rounded_box_hangs_over_an_edge_at_the_pose_of_least_energy) {
   // No closed form for the pose, but none nearby that the checker finds free is better.
   const auto mesh = valley(-0.9);
-  const Points<double> vertices{{-0.1 * std::cos(0.9), -0.1, -0.1 * std::sin(0.9)}, {-0.1 * std::cos(0.9), 0.1, -0.1 * std::sin(0.9)}, {0, -0.1, 0}, {0, 0.1, 0},
-                                {0.1 * std::cos(0.9), -0.1, -0.1 * std::sin(0.9)}, {0.1 * std::cos(0.9), 0.1, -0.1 * std::sin(0.9)}};
+  const Points<double> vertices{
+      {-0.1 * std::cos(0.9), -0.1, -0.1 * std::sin(0.9)}, {-0.1 * std::cos(0.9), 0.1, -0.1 * std::sin(0.9)}, {0, -0.1, 0}, {0, 0.1, 0},
+      {0.1 * std::cos(0.9), -0.1, -0.1 * std::sin(0.9)},  {0.1 * std::cos(0.9), 0.1, -0.1 * std::sin(0.9)}};
   const RoundedBox<double> tool(Box<double>({0.010, 0.006, 0.003}), 0.002);
   const Witness witness(vertices, Triangles{{0, 2, 3}, {0, 3, 1}, {2, 4, 5}, {2, 5, 3}}, tool);
   scenes::RandomBits random(62);
   int better = 0, tried = 0;
   for (int i = 0; i < 40; ++i) {
-    const Pose<double> haptic{{0.003 * (2 * random.unit() - 1), 0.01 * random.unit(), 0.002 + 0.002 * random.unit()}, exp_rotation<double>(0.8 * random.unit() * random.direction())};
+    const Pose<double> haptic{{0.003 * (2 * random.unit() - 1), 0.01 * random.unit(), 0.002 + 0.002 * random.unit()},
+                              exp_rotation<double>(0.8 * random.unit() * random.direction())};
     HapticRenderer renderer(mesh, tool, settings_about({0, 0, 0}));
     const auto& tick = come_down(renderer, haptic, {0, 0, 0.03}, 100);
     for (int k = 0; k < 30; ++k) renderer.update(haptic);
@@ -425,7 +428,8 @@ BOOST_AUTO_TEST_CASE(a_line_and_a_capsule_feel_no_torque_about_their_axis_and_ro
     double worst = 0;
     for (int i = 0; i < 1000; ++i) {
       const double t = i * 1e-3;
-      const Quaternion<double> rotation = exp_rotation<double>({0, 0.3 * std::sin(7 * t), 0.4 * std::sin(5 * t)}) * exp_rotation<double>({30 * std::sin(4 * t), 0, 0});
+      const Quaternion<double> rotation =
+          exp_rotation<double>({0, 0.3 * std::sin(7 * t), 0.4 * std::sin(5 * t)}) * exp_rotation<double>({30 * std::sin(4 * t), 0, 0});
       const auto& tick = renderer.update({{0.003 * std::sin(9 * t), 0.01 * t, std::max(least_height - 0.002, 0.03 - 0.1 * t)}, rotation});
       if (tick.contacts.empty()) continue;
       ++contact_ticks;
@@ -437,7 +441,8 @@ BOOST_AUTO_TEST_CASE(a_line_and_a_capsule_feel_no_torque_about_their_axis_and_ro
       BOOST_TEST(std::abs(tick.wrench.torque.dot(axis)) <= 1e-14);
       BOOST_TEST(is_valid(tick, mesh.triangle_count()));
     }
-    BOOST_TEST_MESSAGE(contact_ticks << " contact ticks with " << double(iterations) / contact_ticks << " iterations each; roll off by at most " << worst << " rad");
+    BOOST_TEST_MESSAGE(contact_ticks << " contact ticks with " << double(iterations) / contact_ticks << " iterations each; roll off by at most "
+                                     << worst << " rad");
     BOOST_TEST(contact_ticks > 500);
     BOOST_TEST(worst <= 1e-14);
     BOOST_TEST(iterations <= 3 * contact_ticks);

@@ -72,8 +72,8 @@ void check_float(const scenes::Scene& scene, const std::string& name, int ticks,
       far += error > 1e-6;
       worst = std::max(worst, error);
     }
-    BOOST_TEST_MESSAGE(name << ": float and double differ by at most " << worst << " m on " << compared << " converged ticks, more than 1 um on " << far
-                            << "; deepest penetration " << deepest_excess << " of the rounding of the pose");
+    BOOST_TEST_MESSAGE(name << ": float and double differ by at most " << worst << " m on " << compared << " converged ticks, more than 1 um on "
+                            << far << "; deepest penetration " << deepest_excess << " of the rounding of the pose");
     BOOST_TEST_CONTEXT(name) {
       BOOST_TEST(invalid == 0);
       BOOST_TEST(deepest_excess <= 1);

@@ -80,8 +80,11 @@ BOOST_AUTO_TEST_CASE(a_margin_that_rounding_can_cross_is_refused) {
 }
 
 BOOST_AUTO_TEST_CASE(lengths_with_which_the_tool_would_stay_where_it_is_or_never_converge_are_refused) {
-  const auto with = [](double Settings<double>::* length, double value) { return refusal_of(cube, [&](auto& settings) { settings.*length = value; }); };
-  for (const double bad : {1e-300, 1e-13, 1.1e-3, 1e300, infinity}) BOOST_TEST(contains(with(&Settings<double>::step_tolerance, bad), "step_tolerance"), bad);
+  const auto with = [](double Settings<double>::* length, double value) {
+    return refusal_of(cube, [&](auto& settings) { settings.*length = value; });
+  };
+  for (const double bad : {1e-300, 1e-13, 1.1e-3, 1e300, infinity})
+    BOOST_TEST(contains(with(&Settings<double>::step_tolerance, bad), "step_tolerance"), bad);
   for (const double bad : {1e-300, 1e-12, 0.9e-6}) BOOST_TEST(contains(with(&Settings<double>::trust_radius, bad), "trust_radius"), bad);
   for (const double good : {1e-12, 1e-10, 1e-3}) BOOST_TEST(with(&Settings<double>::step_tolerance, good) == "accepted");
   for (const double good : {1e-6, 1.0}) BOOST_TEST(with(&Settings<double>::trust_radius, good) == "accepted");
@@ -103,7 +106,8 @@ BOOST_AUTO_TEST_CASE(scenes_that_are_too_large_or_too_far_off_are_refused_and_to
     const TriangleMesh<Scalar> far(wall_at(distance), wall_triangles);
     return refusal([&] { HapticRenderer(far, Box<Scalar>(Vector3<Scalar>::Constant(Scalar(0.01)))); });
   };
-  BOOST_TEST(contains(off(1e6f), "the object reaches 1e+06 m from the origin, where poses are rounded to 0.0596 m; move the scene to the origin, or use double"));
+  BOOST_TEST(contains(
+      off(1e6f), "the object reaches 1e+06 m from the origin, where poses are rounded to 0.0596 m; move the scene to the origin, or use double"));
   BOOST_TEST(contains(off(1e10), "move the scene to the origin, or give a larger margin"));
   BOOST_TEST(off(1e3f) == "accepted");
   BOOST_TEST(off(1e8) == "accepted");
@@ -150,8 +154,7 @@ BOOST_AUTO_TEST_CASE(what_is_referred_to_must_outlive_who_refers_to_it) {
 BOOST_AUTO_TEST_CASE(a_reference_point_or_a_weight_that_is_not_finite_is_refused) {
   for (const double bad : {not_a_number, infinity, -infinity, -1.0}) {
     for (int axis = 0; axis < 3; ++axis) {
-      if (bad != -1.0)
-        BOOST_TEST(contains(refusal_of(cube, [&](auto& settings) { settings.reference_point[axis] = bad; }), "reference_point"));
+      if (bad != -1.0) BOOST_TEST(contains(refusal_of(cube, [&](auto& settings) { settings.reference_point[axis] = bad; }), "reference_point"));
       BOOST_TEST(contains(refusal_of(cube, [&](auto& settings) { settings.stiffness.translational[axis] = bad; }), "stiffness"));
       BOOST_TEST(contains(refusal_of(cube, [&](auto& settings) { settings.stiffness.rotational[axis] = bad; }), "stiffness"));
       BOOST_TEST(contains(refusal_of(cube, [&](auto& settings) { settings.metric.emplace().translational[axis] = bad; }), "metric"));
@@ -211,12 +214,14 @@ BOOST_AUTO_TEST_CASE(weights_of_any_ratio_leave_the_tool_outside) {
       for (int i = 0; i < ticks; ++i) {
         const double t = i * 4e-3;
         const WideVector turn(std::sin(t), 0.7 * std::cos(2 * t), 0.5 * std::sin(3 * t));
-        const auto& tick = renderer.update({{0.012 * std::cos(7 * t), 0.02 * std::sin(3 * t), 0.02 * std::sin(5 * t)}, rotation_by(turn).cast<double>()});
+        const auto& tick =
+            renderer.update({{0.012 * std::cos(7 * t), 0.02 * std::sin(3 * t), 0.02 * std::sin(5 * t)}, rotation_by(turn).cast<double>()});
         converged += tick.converged();
         deepest = std::max(deepest, witness.depth_at(tick.graphic_pose));
       }
       BOOST_TEST(deepest <= touching_depth, "rotational " << rotational);
-      BOOST_TEST(converged >= ticks * 9 / 10, converged << " of " << ticks << ", rotational " << rotational << ", translational " << translational.transpose());
+      BOOST_TEST(converged >= ticks * 9 / 10,
+                 converged << " of " << ticks << ", rotational " << rotational << ", translational " << translational.transpose());
     }
   }
 }

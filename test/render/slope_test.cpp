@@ -190,7 +190,8 @@ BOOST_AUTO_TEST_CASE(a_vertex_on_a_slope_ends_where_force_and_torque_balance) {
       const auto tool = scenes::pebble(3);
       const CheckedTool checked = checked_tool(tool);
       for (int attempt = 0; attempt < 4; ++attempt) {
-        const Pose<double> haptic{n * (0.007 + 0.002 * random.unit()) + Vector3<double>(0.01 * random.unit() * std::cos(a), 0.02 * random.unit(), 0.01 * random.unit() * std::sin(a)),
+        const Pose<double> haptic{n * (0.007 + 0.002 * random.unit()) +
+                                      Vector3<double>(0.01 * random.unit() * std::cos(a), 0.02 * random.unit(), 0.01 * random.unit() * std::sin(a)),
                                   exp_rotation<double>(3.0 * random.unit() * random.direction())};
         HapticRenderer renderer(mesh, tool, settings_of());
         BOOST_TEST_REQUIRE((renderer.reset({haptic.translation + n * 0.03, haptic.rotation}) == Status::converged));
@@ -209,9 +210,8 @@ BOOST_AUTO_TEST_CASE(a_vertex_on_a_slope_ends_where_force_and_torque_balance) {
           phi += 0.05L * (force / (length * length) * arm.cross(normal) - phi);
         }
         const CheckedPose expected(WideVector(from.translation + force * normal), rotation_by(phi) * from.rotation);
-        const bool one_vertex_holds = std::all_of(checked.vertices.begin(), checked.vertices.end(), [&](const auto& v) {
-          return v == *lowest || height(expected, v) > 2e-6L;
-        });
+        const bool one_vertex_holds =
+            std::all_of(checked.vertices.begin(), checked.vertices.end(), [&](const auto& v) { return v == *lowest || height(expected, v) > 2e-6L; });
         if (!one_vertex_holds || !(force > 0)) continue;
         BOOST_TEST_CONTEXT("slope " << angle << ", " << name << ", attempt " << attempt) {
           const double error = pose_error(expected, tick.graphic_pose).at(0.015);

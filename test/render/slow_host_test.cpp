@@ -20,8 +20,7 @@ using Renderer = HapticRenderer<ConvexPolytope<double>>;
 /// How far a tool is from where it comes to rest with the hand held still [m].
 double distance_to_rest(Renderer renderer, const Pose<double>& haptic) {
   const Vector3<double> here = renderer.tick().graphic_pose.translation;
-  for (int i = 0; i < 400 && !(renderer.update(haptic).converged() && renderer.tick().path.empty()); ++i) {
-  }
+  for (int i = 0; i < 400 && !(renderer.update(haptic).converged() && renderer.tick().path.empty()); ++i) {}
   return (renderer.tick().graphic_pose.translation - here).norm();
 }
 

@@ -22,9 +22,7 @@ struct PressedShaft {
   using Shaft = CompoundTool<ConvexPolytope<double>>;
 
   explicit PressedShaft(double clearance, int budget = Settings<double>{}.work_budget)
-      : scene(scenes::spline(clearance)),
-        object(scene.vertices, scene.triangles),
-        renderer(object, Shaft::hulls_of(scene.pieces), settings(budget)) {
+      : scene(scenes::spline(clearance)), object(scene.vertices, scene.triangles), renderer(object, Shaft::hulls_of(scene.pieces), settings(budget)) {
     BOOST_TEST((renderer.reset(scenes::pose_of({0, 0, 0}, {0, 0, middle})) == Status::converged));
   }
 
@@ -72,8 +70,9 @@ BOOST_AUTO_TEST_CASE(a_shaft_slides_like_the_device_and_stays_in_the_corner_it_i
         worst_corner = std::max({worst_corner, std::abs(p.x() - play), std::abs(p.y() - play * std::tan(std::numbers::pi / 8))});
         unconverged += tick.converged() ? 0 : 1;
       }
-      BOOST_TEST_MESSAGE("clearance " << clearance << ": slides " << worst_slide << " m behind the device, " << worst_lag << " m where work lacks, held to " << high - low << " m, " << worst_corner
-                                      << " m from the corner, turned by " << worst_turn << "; " << unconverged << " unconverged");
+      BOOST_TEST_MESSAGE("clearance " << clearance << ": slides " << worst_slide << " m behind the device, " << worst_lag
+                                      << " m where work lacks, held to " << high - low << " m, " << worst_corner << " m from the corner, turned by "
+                                      << worst_turn << "; " << unconverged << " unconverged");
       // Without clearance rounding says which teeth hold, about once in 1500 to 4000 ticks others than before. Those are more to look at than a tick
       // may, which says so; the next one makes up for it.
       BOOST_TEST(unconverged <= (clearance > 0 ? 0 : 1 + ticks / 800));
@@ -104,7 +103,8 @@ BOOST_AUTO_TEST_CASE(it_slides_so_whatever_the_hand) {
           worst_turn = std::max(worst_turn, log_rotation(tick.graphic_pose.rotation).norm());
         }
       }
-      BOOST_TEST_MESSAGE("clearance " << clearance << ": slides " << worst_slide << " m behind the device, turned by " << worst_turn << "; " << late << " late");
+      BOOST_TEST_MESSAGE("clearance " << clearance << ": slides " << worst_slide << " m behind the device, turned by " << worst_turn << "; " << late
+                                      << " late");
       BOOST_TEST(late <= 1);
       BOOST_TEST(worst_slide <= 1e-9 * 0.008);
       BOOST_TEST(worst_turn <= 1e-9);

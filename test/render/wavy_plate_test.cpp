@@ -23,8 +23,8 @@ BOOST_AUTO_TEST_CASE(a_box_drawn_over_waves_of_two_margins_converges_in_every_ti
   constexpr int cells = 30;
   Points<double> vertices;
   Triangles triangles;
-  scenes::mesh_height_field({-0.03, 0.03, -0.03, 0.03, cells, cells}, [](double x, double y) { return 2e-6 * std::sin(900 * x) * std::cos(700 * y); },
-                            vertices, triangles);
+  scenes::mesh_height_field(
+      {-0.03, 0.03, -0.03, 0.03, cells, cells}, [](double x, double y) { return 2e-6 * std::sin(900 * x) * std::cos(700 * y); }, vertices, triangles);
   for (auto vertex : vertices.rowwise()) {
     const bool is_rim = vertex.head<2>().cwiseAbs().maxCoeff() > 0.0299;
     vertex += feeler_test::random_vector(bits).cwiseProduct(Eigen::Vector3d(is_rim ? 0 : 3e-4, is_rim ? 0 : 3e-4, 5e-7)).transpose();
@@ -38,7 +38,8 @@ BOOST_AUTO_TEST_CASE(a_box_drawn_over_waves_of_two_margins_converges_in_every_ti
   for (int i = 1; i <= 800; ++i) {
     const double q = i / 1200.0;
     const Vector3<double> turn(0.02 * std::sin(6 * q), 0.02 * (std::cos(5 * q) - 1), 0.5 * q);
-    const auto& tick = renderer->update(scenes::pose_of(turn, {-0.012 + 0.024 * std::max(0.0, q - 0.1), -0.005 + 0.01 * q, std::max(0.012 - 0.0002 * i, 0.008) - 0.0005}));
+    const auto& tick = renderer->update(
+        scenes::pose_of(turn, {-0.012 + 0.024 * std::max(0.0, q - 0.1), -0.005 + 0.01 * q, std::max(0.012 - 0.0002 * i, 0.008) - 0.0005}));
     unconverged += tick.converged() ? 0 : 1;
   }
   BOOST_TEST(unconverged <= 1);

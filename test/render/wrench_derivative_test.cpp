@@ -51,8 +51,7 @@ Matrix6d differences(const Renderer& settled, const Pose<double>& haptic, double
     Vector6d wrench[2];
     for (const int side : {0, 1}) {
       Renderer copy = settled;
-      wrench[side] = settled_wrench(
-          copy, stepped(haptic, side == 0 ? Vector6d(-step) : step, settled.settings().reference_point));
+      wrench[side] = settled_wrench(copy, stepped(haptic, side == 0 ? Vector6d(-step) : step, settled.settings().reference_point));
     }
     result.col(axis) = (wrench[1] - wrench[0]) / (2 * step[axis]);
   }
@@ -73,8 +72,7 @@ struct Probe {
   int contacts = -1;         // that must hold the tool; −1 for any
 };
 
-void check_probes(scenes::Scene scene, const std::vector<Probe>& probes, Settings<double> settings,
-                  double tolerance = 2e-3) {
+void check_probes(scenes::Scene scene, const std::vector<Probe>& probes, Settings<double> settings, double tolerance = 2e-3) {
   settings.step_tolerance = 1e-10;
   settings.maximum_iterations = 32;
   settings.work_budget = 100'000;
@@ -141,8 +139,7 @@ BOOST_AUTO_TEST_CASE(it_is_what_the_renderer_does_on_faces_edges_and_corners) {
                plate.settings());
   const auto steps = scenes::steps();
   check_probes(steps,
-               {{"tip on a face", {0.1, 0.1, 0}, {-0.045, 0.002, 0.012}, 1},
-                {"line over an edge", {0.1, 0.9, 0.1}, {-0.031, 0.003, 0.010}, 1}},
+               {{"tip on a face", {0.1, 0.1, 0}, {-0.045, 0.002, 0.012}, 1}, {"line over an edge", {0.1, 0.9, 0.1}, {-0.031, 0.003, 0.010}, 1}},
                steps.settings());
   const auto cavity = scenes::cavity(1e-3);
   check_probes(cavity,
@@ -151,17 +148,14 @@ BOOST_AUTO_TEST_CASE(it_is_what_the_renderer_does_on_faces_edges_and_corners) {
                 {"square in a corner", {0.001, 0.002, 0.0015}, {0.012, 0.002, 0.007}}},
                cavity.settings());
   const auto terrain = scenes::terrain(22);
-  check_probes(terrain,
-               {{"in a hollow", {0.1, 0.2, 0.3}, {0.013, 0.004, 0.004}},
-                {"beside it", {0.3, -0.2, 0.15}, {-0.031, 0.012, 0.006}}},
+  check_probes(terrain, {{"in a hollow", {0.1, 0.2, 0.3}, {0.013, 0.004, 0.004}}, {"beside it", {0.3, -0.2, 0.15}, {-0.031, 0.012, 0.006}}},
                terrain.settings());
 }
 
 BOOST_AUTO_TEST_CASE(it_is_so_for_large_turns_other_stiffness_and_other_metrics) {
   const auto plate = scenes::plate();
   auto settings = plate.settings();
-  const std::vector<Probe> probes{{"vertex on face", {0.5, 0.4, 0.2}, {0.001, 0.002, 0.003}},
-                                  {"turned far", {0.5, 0.7, 0.4}, {0.003, 0.002, 0.001}}};
+  const std::vector<Probe> probes{{"vertex on face", {0.5, 0.4, 0.2}, {0.001, 0.002, 0.003}}, {"turned far", {0.5, 0.7, 0.4}, {0.003, 0.002, 0.001}}};
   settings.reference_point = {0.002, -0.001, 0.004};
   check_probes(plate, probes, settings);
   settings.stiffness = {{900, 1000, 700}, {0.08, 0.05, 0.06}};
@@ -175,13 +169,11 @@ BOOST_AUTO_TEST_CASE(the_coefficient_of_the_jacobian_is_one_function) {
   using Coefficient = feeler::detail::JacobianCoefficient<double>;
   const double below = 0.25 - 1e-9, above = 0.25 + 1e-9;
   BOOST_TEST(Coefficient(below).value == Coefficient(above).value, boost::test_tools::tolerance(1e-9));
-  BOOST_TEST(Coefficient(below).derivative == Coefficient(above).derivative,
-             boost::test_tools::tolerance(1e-8));
+  BOOST_TEST(Coefficient(below).derivative == Coefficient(above).derivative, boost::test_tools::tolerance(1e-8));
   for (const double u : {0.01, 0.2, 0.5, 2.0, 7.0}) {
     constexpr double step = 1e-5;
-    BOOST_TEST(
-        Coefficient(u).derivative == (Coefficient(u + step).value - Coefficient(u - step).value) / (2 * step),
-        boost::test_tools::tolerance(1e-6));
+    BOOST_TEST(Coefficient(u).derivative == (Coefficient(u + step).value - Coefficient(u - step).value) / (2 * step),
+               boost::test_tools::tolerance(1e-6));
   }
 }
 

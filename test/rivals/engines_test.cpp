@@ -21,8 +21,7 @@ constexpr double half = 0.01;  // of the cube [m]
 /// A cube of 20 mm above a floor at z = 0.
 feeler::scenes::Scene cube_on_floor() {
   feeler::scenes::Scene scene;
-  scene.vertices =
-      feeler::scenes::points_from({{-0.1, -0.1, 0.0}, {0.1, -0.1, 0.0}, {0.1, 0.1, 0.0}, {-0.1, 0.1, 0.0}});
+  scene.vertices = feeler::scenes::points_from({{-0.1, -0.1, 0.0}, {0.1, -0.1, 0.0}, {0.1, 0.1, 0.0}, {-0.1, 0.1, 0.0}});
   scene.triangles = feeler::scenes::triangles_from({{0, 1, 2}, {0, 2, 3}});
   scene.start = {Vector(0.0, 0.0, 0.05), Eigen::Quaterniond::Identity()};
   return scene;
@@ -33,19 +32,13 @@ void for_every_engine(const Test& test) {
   const auto scene = cube_on_floor();
   const auto coupled = feeler::rivals::coupled_scene(scene, feeler::Box<double>(Vector::Constant(half)));
   for (const auto& tool : feeler::rivals::make_engines(coupled, 1e-3)) {
-    BOOST_TEST_CONTEXT(tool->name()) {
-      test(*tool, scene);
-    }
+    BOOST_TEST_CONTEXT(tool->name()) { test(*tool, scene); }
   }
 }
 
-bool is_chai3d(const CoupledTool& tool) {
-  return tool.name() == "Bullet as CHAI3D";
-}
+bool is_chai3d(const CoupledTool& tool) { return tool.name() == "Bullet as CHAI3D"; }
 
-Pose<double> at_height(double z) {
-  return {Vector(0.0, 0.0, z), Eigen::Quaterniond::Identity()};
-}
+Pose<double> at_height(double z) { return {Vector(0.0, 0.0, z), Eigen::Quaterniond::Identity()}; }
 
 }  // namespace
 
@@ -69,8 +62,7 @@ BOOST_AUTO_TEST_CASE(a_pressed_tool_rests_on_the_floor_and_pushes_back_with_the_
     const double stiffness = is_chai3d(tool) ? 4000.0 : 1000.0;  // [N/m]
     const double depth = 0.002;
     feeler::rivals::CoupledTick tick;
-    for (int i = 0; i < 2000; ++i)
-      tick = tool.update(at_height(std::max(half - depth, 0.03 - 1e-4 * double(i))));
+    for (int i = 0; i < 2000; ++i) tick = tool.update(at_height(std::max(half - depth, 0.03 - 1e-4 * double(i))));
     // Margins of up to 0.1 mm and what the solvers leave of penetration.
     BOOST_TEST(std::abs(tick.graphic_pose.translation.z() - half) < 3e-4);
     const double force = stiffness * (tick.graphic_pose.translation.z() - (half - depth));
@@ -87,8 +79,7 @@ BOOST_AUTO_TEST_CASE(a_reset_gives_the_same_run_to_the_last_bit) {
       for (int i = 0; i < 600; ++i) {
         const double t = double(i) / 1000.0;
         const auto pose =
-            tool.update(feeler::scenes::pose_of({0.3 * std::sin(9.0 * t), 0.2 * std::sin(7.0 * t), 0.1 * t},
-                                                {0.02 * t, 0.0, 0.03 - 0.06 * t}))
+            tool.update(feeler::scenes::pose_of({0.3 * std::sin(9.0 * t), 0.2 * std::sin(7.0 * t), 0.1 * t}, {0.02 * t, 0.0, 0.03 - 0.06 * t}))
                 .graphic_pose;
         sum.head<3>() += pose.translation;
         sum.tail<4>() += pose.rotation.coeffs();

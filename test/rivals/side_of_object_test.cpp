@@ -36,8 +36,7 @@ BOOST_AUTO_TEST_CASE(a_way_through_and_back_changes_the_side_twice) {
 BOOST_AUTO_TEST_CASE(a_way_around_the_rim_is_none_through) {
   const auto object = sheet();
   SideOfObject side(object, Vector(0.5, 0.1, 0.5));
-  for (const Vector& place : {Vector(1.5, 0.1, 0.5), Vector(1.5, 0.1, -0.5), Vector(0.5, 0.1, -0.5)})
-    side.move_to(place);
+  for (const Vector& place : {Vector(1.5, 0.1, 0.5), Vector(1.5, 0.1, -0.5), Vector(0.5, 0.1, -0.5)}) side.move_to(place);
   BOOST_TEST(!side.is_other());
 }
 

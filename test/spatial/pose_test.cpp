@@ -89,7 +89,9 @@ BOOST_AUTO_TEST_CASE(a_stiffness_in_any_axes_pulls_down_its_energy) {
           return energy_in(hand.rotation.conjugate() * e.linear, hand.rotation.conjugate() * e.angular);
         },
         haptic);
-    const auto difference = [](const Wrench<double>& a, const Wrench<double>& b) { return (a.force - b.force).norm() + (a.torque - b.torque).norm(); };
+    const auto difference = [](const Wrench<double>& a, const Wrench<double>& b) {
+      return (a.force - b.force).norm() + (a.torque - b.torque).norm();
+    };
     BOOST_TEST(difference(wrench_along(axes, stiffness, motion_between(haptic, graphic)), along_axes) < 1e-6);
     BOOST_TEST(difference(wrench_along_tool(stiffness, haptic, graphic), along_tool) < 1e-6);
   }

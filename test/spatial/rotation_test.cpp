@@ -81,9 +81,8 @@ BOOST_AUTO_TEST_CASE(metric_gradient_and_hessian_are_derivatives_of_the_energy) 
   for (double length : {0.0, 1e-3, 0.4, 1.4}) {
     feeler::Twist<double> e{random_vector(bits, 1.0), random_vector(bits, length)};
     const auto moved_energy = [&](const feeler::Vector6<double>& d) {
-      const feeler::Twist<double> moved{
-          e.linear + d.head<3>(),
-          feeler::log_rotation(feeler::exp_rotation(Vector(d.tail<3>())) * feeler::exp_rotation(e.angular))};
+      const feeler::Twist<double> moved{e.linear + d.head<3>(),
+                                        feeler::log_rotation(feeler::exp_rotation(Vector(d.tail<3>())) * feeler::exp_rotation(e.angular))};
       return metric.energy(moved);
     };
     const double h = 1e-4;
@@ -93,8 +92,7 @@ BOOST_AUTO_TEST_CASE(metric_gradient_and_hessian_are_derivatives_of_the_energy) 
       BOOST_TEST(std::abs((moved_energy(di) - moved_energy(-di)) / (2 * h) - metric.gradient(e)[i]) < 1e-7);
       for (int j = 0; j < 6; ++j) {
         const V6 dj = V6::Unit(j) * h;
-        const double second = (moved_energy(di + dj) - moved_energy(di - dj) - moved_energy(-di + dj) +
-                               moved_energy(-di - dj)) / (4 * h * h);
+        const double second = (moved_energy(di + dj) - moved_energy(di - dj) - moved_energy(-di + dj) + moved_energy(-di - dj)) / (4 * h * h);
         BOOST_TEST(std::abs(second - metric.hessian(e)(i, j)) < 1e-6);
       }
     }

@@ -22,13 +22,10 @@ struct ClosedMesh {
     return result;
   }
   ClosedMesh moved(const Eigen::Quaterniond& rotation, const Eigen::Vector3d& translation) const {
-    return {(vertices * rotation.toRotationMatrix().transpose()).rowwise() + translation.transpose(),
-            triangles};
+    return {(vertices * rotation.toRotationMatrix().transpose()).rowwise() + translation.transpose(), triangles};
   }
   /// Without its first triangles.
-  ClosedMesh opened(int count = 1) const {
-    return {vertices, triangles.bottomRows(triangles.rows() - count)};
-  }
+  ClosedMesh opened(int count = 1) const { return {vertices, triangles.bottomRows(triangles.rows() - count)}; }
   ClosedMesh with(const ClosedMesh& other) const {
     ClosedMesh result;
     result.vertices.resize(vertices.rows() + other.vertices.rows(), 3);
@@ -65,11 +62,8 @@ inline ClosedMesh torus(double radius, double tube, int u, int v) {
 
 inline ClosedMesh block(const Eigen::Vector3d& low, const Eigen::Vector3d& high) {
   ClosedMesh mesh{feeler::Points<double>(8, 3), feeler::Triangles(12, 3)};
-  for (int i = 0; i < 8; ++i)
-    mesh.vertices.row(i) << ((i & 1) ? high : low).x(), ((i & 2) ? high : low).y(),
-        ((i & 4) ? high : low).z();
-  mesh.triangles << 0, 4, 6, 0, 6, 2, 1, 3, 7, 1, 7, 5, 0, 1, 5, 0, 5, 4, 2, 6, 7, 2, 7, 3, 0, 2, 3, 0, 3, 1,
-      4, 5, 7, 4, 7, 6;
+  for (int i = 0; i < 8; ++i) mesh.vertices.row(i) << ((i & 1) ? high : low).x(), ((i & 2) ? high : low).y(), ((i & 4) ? high : low).z();
+  mesh.triangles << 0, 4, 6, 0, 6, 2, 1, 3, 7, 1, 7, 5, 0, 1, 5, 0, 5, 4, 2, 6, 7, 2, 7, 3, 0, 2, 3, 0, 3, 1, 4, 5, 7, 4, 7, 6;
   return mesh;
 }
 
@@ -92,10 +86,8 @@ inline ClosedMesh ball(double radius, int n) {
         const int row = first + i * (n + 1) + j, across = row + n + 1;
         mesh.vertices.row(row) = point.transpose();
         if (i == n || j == n) continue;
-        mesh.triangles.row(triangle++) << row, (is_high ? across : across + 1),
-            (is_high ? across + 1 : across);
-        mesh.triangles.row(triangle++) << row, (is_high ? across + 1 : row + 1),
-            (is_high ? row + 1 : across + 1);
+        mesh.triangles.row(triangle++) << row, (is_high ? across : across + 1), (is_high ? across + 1 : across);
+        mesh.triangles.row(triangle++) << row, (is_high ? across + 1 : row + 1), (is_high ? row + 1 : across + 1);
       }
     }
   }

@@ -42,8 +42,7 @@ struct Soup {
   /// The triangles in another order, each starting at another corner.
   Soup shuffled(std::mt19937& bits) const {
     Soup result = *this;
-    for (std::size_t i = result.triangles.size(); i > 1; --i)
-      std::swap(result.triangles[i - 1], result.triangles[std::size_t(below(bits, int(i)))]);
+    for (std::size_t i = result.triangles.size(); i > 1; --i) std::swap(result.triangles[i - 1], result.triangles[std::size_t(below(bits, int(i)))]);
     for (auto& t : result.triangles) std::rotate(t.begin(), t.begin() + below(bits, 3), t.end());
     return result;
   }
@@ -76,8 +75,7 @@ inline Soup floor_object(double half = 1.0) {
 }
 /// z = slope |x|: a valley for positive slopes, a ridge for negative ones, along y.
 inline Soup roof(double slope) {
-  return {{{-1, -1, slope}, {0, -1, 0}, {1, -1, slope}, {-1, 1, slope}, {0, 1, 0}, {1, 1, slope}},
-          {{0, 1, 4}, {0, 4, 3}, {1, 2, 5}, {1, 5, 4}}};
+  return {{{-1, -1, slope}, {0, -1, 0}, {1, -1, slope}, {-1, 1, slope}, {0, 1, 0}, {1, 1, slope}}, {{0, 1, 4}, {0, 4, 3}, {1, 2, 5}, {1, 5, 4}}};
 }
 /// Triangles around the origin to corners at unit distance and a height: a pit for positive heights, a tip for negative ones.
 inline Soup fan(int count, double height) {
@@ -111,17 +109,14 @@ ToolFeature tool_feature(const Tool& tool, const Feature& feature) {
     const auto face = tool.face(f);
     std::vector<int> loop(face.vertices.begin(), face.vertices.end());
     if (feature.kind == FeatureKind::face && f == feature.index) result.vertices = loop;
-    const bool holds = feature.kind == FeatureKind::face
-                           ? f == feature.index
-                           : std::all_of(result.vertices.begin(), result.vertices.end(), [&](int v) {
-                               return std::find(loop.begin(), loop.end(), v) != loop.end();
-                             });
+    const bool holds = feature.kind == FeatureKind::face ? f == feature.index
+                                                         : std::all_of(result.vertices.begin(), result.vertices.end(),
+                                                                       [&](int v) { return std::find(loop.begin(), loop.end(), v) != loop.end(); });
     if (holds) result.outward += face.normal;
   }
   for (const int v : result.vertices) result.point += at(v) / double(result.vertices.size());
   if (tool.face_count() == 0)  // a segment
-    result.outward = feature.kind == FeatureKind::vertex ? Eigen::Vector3d(at(feature.index) - at(1 - feature.index))
-                                                         : result.along.unitOrthogonal();
+    result.outward = feature.kind == FeatureKind::vertex ? Eigen::Vector3d(at(feature.index) - at(1 - feature.index)) : result.along.unitOrthogonal();
   result.outward.normalize();
   return result;
 }

@@ -13,8 +13,7 @@ using Float50 = boost::multiprecision::cpp_bin_float_50;
 /// The 113 binary digits of IEEE's quad.
 using Quad = boost::multiprecision::cpp_bin_float_quad;
 /// Fractions without rounding.
-using Rational =
-    boost::multiprecision::number<boost::multiprecision::cpp_rational_backend, boost::multiprecision::et_off>;
+using Rational = boost::multiprecision::number<boost::multiprecision::cpp_rational_backend, boost::multiprecision::et_off>;
 
 }  // namespace feeler_test
 
@@ -27,15 +26,7 @@ struct Eigen::NumTraits<boost::multiprecision::number<Backend, boost::multipreci
   using Nested = Real;
   using Literal = Real;
   using Limits = std::numeric_limits<Real>;
-  enum {
-    IsComplex = 0,
-    IsInteger = 0,
-    IsSigned = 1,
-    RequireInitialization = 1,
-    ReadCost = 10,
-    AddCost = 100,
-    MulCost = 200
-  };
+  enum { IsComplex = 0, IsInteger = 0, IsSigned = 1, RequireInitialization = 1, ReadCost = 10, AddCost = 100, MulCost = 200 };
   static Real epsilon() { return Limits::epsilon(); }
   static Real dummy_precision() { return 1000 * Limits::epsilon(); }
   static Real highest() { return Limits::max(); }
@@ -47,5 +38,4 @@ struct Eigen::NumTraits<boost::multiprecision::number<Backend, boost::multipreci
 
 // Boost 1.74 asks whether a matrix holds bytes by an iterator that only vectors have.
 template <class Scalar, int Rows, int Columns, int Options, int MaxRows, int MaxColumns>
-struct boost::multiprecision::detail::is_byte_container<
-    Eigen::Matrix<Scalar, Rows, Columns, Options, MaxRows, MaxColumns>> : boost::false_type {};
+struct boost::multiprecision::detail::is_byte_container<Eigen::Matrix<Scalar, Rows, Columns, Options, MaxRows, MaxColumns>> : boost::false_type {};

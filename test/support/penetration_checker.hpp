@@ -22,8 +22,7 @@ namespace feeler::test {
 
 /// Answer of the checker. `depth` is 0 where nothing penetrates and infinite for a pose that is not finite.
 struct Penetration {
-  WideReal depth =
-      0;  ///< [m]: the shortest translation that frees the tool from the triangle it is deepest in
+  WideReal depth = 0;  ///< [m]: the shortest translation that frees the tool from the triangle it is deepest in
   int triangle = -1;  ///< that triangle, a row of the object's list
   double time = 0;    ///< in [0, 1] along a path
 };
@@ -62,9 +61,7 @@ inline CheckedPose pose_on_path(const CheckedPose& pose0, const CheckedPose& pos
 
 namespace detail {
 
-inline bool is_parallel(const WideVector& unit_a, const WideVector& unit_b) {
-  return unit_a.cross(unit_b).norm() <= 2 * rounding;
-}
+inline bool is_parallel(const WideVector& unit_a, const WideVector& unit_b) { return unit_a.cross(unit_b).norm() <= 2 * rounding; }
 
 inline void add_axis(std::vector<WideVector>& axes, const WideVector& unit) {
   if (unit.isZero(0)) return;
@@ -81,17 +78,15 @@ struct CheckedTool {
   /// @param tool_vertices  n×3 [m]
   /// @param edges          pairs of vertex indices; all edges of the hull, more do no harm
   /// @param faces          loops of vertex indices, in any sense; all faces of the hull
-  CheckedTool(const Eigen::Matrix<double, Eigen::Dynamic, 3>& tool_vertices,
-              const std::vector<std::array<int, 2>>& tool_edges, const std::vector<std::vector<int>>& tool_faces)
+  CheckedTool(const Eigen::Matrix<double, Eigen::Dynamic, 3>& tool_vertices, const std::vector<std::array<int, 2>>& tool_edges,
+              const std::vector<std::vector<int>>& tool_faces)
       : edges(tool_edges), faces(tool_faces) {
     for (int i = 0; i < tool_vertices.rows(); ++i) vertices.push_back(tool_vertices.row(i).cast<WideReal>());
     if (vertices.empty()) throw std::invalid_argument("checker: a tool needs a vertex");
-    for (const auto& [start, end] : edges)
-      detail::add_axis(edge_directions, (vertex(end) - vertex(start)).stableNormalized());
+    for (const auto& [start, end] : edges) detail::add_axis(edge_directions, (vertex(end) - vertex(start)).stableNormalized());
     for (const std::vector<int>& face : faces) {
       WideVector area = WideVector::Zero();
-      for (std::size_t i = 2; i < face.size(); ++i)
-        area += (vertex(face[i - 1]) - vertex(face[0])).cross(vertex(face[i]) - vertex(face[0]));
+      for (std::size_t i = 2; i < face.size(); ++i) area += (vertex(face[i - 1]) - vertex(face[0])).cross(vertex(face[i]) - vertex(face[0]));
       detail::add_axis(face_normals, area.stableNormalized());
     }
     lower = upper = vertices.front();
@@ -162,11 +157,9 @@ std::vector<CheckedTool> checked_pieces(const Tool& tool) {
 /// A triangle soup and its bounds; triangles may be degenerate.
 struct CheckedObject {
   /// @param object_vertices  n×3 [m]   @param object_triangles  m×3 indices
-  CheckedObject(const Eigen::Matrix<double, Eigen::Dynamic, 3>& object_vertices,
-                const Eigen::Matrix<int, Eigen::Dynamic, 3>& object_triangles)
+  CheckedObject(const Eigen::Matrix<double, Eigen::Dynamic, 3>& object_vertices, const Eigen::Matrix<int, Eigen::Dynamic, 3>& object_triangles)
       : vertices(object_vertices), triangles(object_triangles) {
-    if (!vertices.allFinite())
-      throw std::invalid_argument("checker: the object has a vertex that is not finite");
+    if (!vertices.allFinite()) throw std::invalid_argument("checker: the object has a vertex that is not finite");
     for (int i = 0; i < triangles.rows(); ++i) {
       if (i % block == 0) block_bounds.emplace_back();
       bounds.emplace_back();
@@ -175,9 +168,7 @@ struct CheckedObject {
     }
   }
 
-  WideVector corner(int triangle, int k) const {
-    return vertices.row(triangles(triangle, k)).cast<WideReal>();
-  }
+  WideVector corner(int triangle, int k) const { return vertices.row(triangles(triangle, k)).cast<WideReal>(); }
 
   Eigen::Matrix<double, Eigen::Dynamic, 3> vertices;
   Eigen::Matrix<int, Eigen::Dynamic, 3> triangles;
@@ -210,8 +201,7 @@ inline WideReal depth_of_core(const CheckedTool& tool, const std::array<WideVect
   };
 
   std::array<WideVector, 3> edges{corners[1] - corners[0], corners[2] - corners[1], corners[0] - corners[2]};
-  std::sort(edges.begin(), edges.end(),
-            [](const WideVector& a, const WideVector& b) { return a.squaredNorm() > b.squaredNorm(); });
+  std::sort(edges.begin(), edges.end(), [](const WideVector& a, const WideVector& b) { return a.squaredNorm() > b.squaredNorm(); });
   const WideVector triangle_normal = normal_of(edges[0], edges[2]);
   if (!triangle_normal.isZero(0) && is_settled_by(triangle_normal)) return depth;
   for (const WideVector& n : tool.face_normals)
@@ -232,11 +222,9 @@ inline WideReal depth_of_core(const CheckedTool& tool, const std::array<WideVect
 /// Distance of the core of a tool from a triangle that it does not penetrate, by all pairs of features.
 inline WideReal distance_of_core(const CheckedTool& tool, const std::array<WideVector, 3>& corners) {
   WidePair best;
-  for (const WideVector& v : tool.vertices)
-    best.take(v, closest_on_wide_triangle(v, corners[0], corners[1], corners[2]));
+  for (const WideVector& v : tool.vertices) best.take(v, closest_on_wide_triangle(v, corners[0], corners[1], corners[2]));
   for (const auto& [start, end] : tool.edges)
-    for (std::size_t k = 0; k < 3; ++k)
-      take_segments(tool.vertex(start), tool.vertex(end), corners[k], corners[(k + 1) % 3], best);
+    for (std::size_t k = 0; k < 3; ++k) take_segments(tool.vertex(start), tool.vertex(end), corners[k], corners[(k + 1) % 3], best);
   for (const std::vector<int>& face : tool.faces)
     for (std::size_t i = 2; i < face.size(); ++i)
       for (const WideVector& y : corners)
@@ -258,11 +246,9 @@ inline WideReal depth_in_triangle(const CheckedTool& tool, const std::array<Wide
 ///
 /// @cost O(triangles): 1 ns each far away, 3 ns near, 0.3 µs where bounds meet, some 10 µs where the tool
 /// penetrates
-inline Penetration deepest_penetration(const CheckedObject& object, const CheckedTool& tool,
-                                       const CheckedPose& pose) {
+inline Penetration deepest_penetration(const CheckedObject& object, const CheckedTool& tool, const CheckedPose& pose) {
   Penetration deepest;
-  if (!pose.translation.allFinite() || !pose.rotation.coeffs().allFinite() ||
-      !(pose.rotation.norm() > 0.5L)) {
+  if (!pose.translation.allFinite() || !pose.rotation.coeffs().allFinite() || !(pose.rotation.norm() > 0.5L)) {
     deepest.depth = std::numeric_limits<WideReal>::infinity();
     return deepest;
   }
@@ -271,14 +257,10 @@ inline Penetration deepest_penetration(const CheckedObject& object, const Checke
   // Bounds of the turned tool, rounded outwards; triangles beyond them are farther than any rounding here.
   Eigen::AlignedBox3d tool_bounds;
   for (int k = 0; k < 3; ++k) {
-    const auto heights = [&](const WideVector& v) {
-      return tool_from_world.col(k).dot(v) + pose.translation[k];
-    };
+    const auto heights = [&](const WideVector& v) { return tool_from_world.col(k).dot(v) + pose.translation[k]; };
     WideReal bottom = heights(tool.vertices.front()), top = bottom;
-    for (const WideVector& v : tool.vertices)
-      bottom = std::min(bottom, heights(v)), top = std::max(top, heights(v));
-    const WideReal slack = WideReal(4 * std::numeric_limits<double>::epsilon()) *
-                           (std::max(std::abs(bottom), std::abs(top)) + tool.radius);
+    for (const WideVector& v : tool.vertices) bottom = std::min(bottom, heights(v)), top = std::max(top, heights(v));
+    const WideReal slack = WideReal(4 * std::numeric_limits<double>::epsilon()) * (std::max(std::abs(bottom), std::abs(top)) + tool.radius);
     tool_bounds.min()[k] = static_cast<double>(bottom - tool.radius - slack);
     tool_bounds.max()[k] = static_cast<double>(top + tool.radius + slack);
   }
@@ -290,14 +272,11 @@ inline Penetration deepest_penetration(const CheckedObject& object, const Checke
       if (!object.bounds[i].intersects(tool_bounds)) continue;
       const int triangle = int(i);
       std::array<WideVector, 3> corners;
-      for (int k = 0; k < 3; ++k)
-        corners[std::size_t(k)] = tool_from_world * (object.corner(triangle, k) - pose.translation);
+      for (int k = 0; k < 3; ++k) corners[std::size_t(k)] = tool_from_world * (object.corner(triangle, k) - pose.translation);
       const WideVector lower = corners[0].cwiseMin(corners[1]).cwiseMin(corners[2]);
       const WideVector upper = corners[0].cwiseMax(corners[1]).cwiseMax(corners[2]);
-      if ((lower.array() >= tool.upper.array()).any() || (upper.array() <= tool.lower.array()).any())
-        continue;
-      const WideReal size =
-          std::max(corners[0].norm(), std::max(corners[1].norm(), corners[2].norm())) + tool.size;
+      if ((lower.array() >= tool.upper.array()).any() || (upper.array() <= tool.lower.array()).any()) continue;
+      const WideReal size = std::max(corners[0].norm(), std::max(corners[1].norm(), corners[2].norm())) + tool.size;
       const WideReal enough = std::max(deepest.depth, 32 * detail::rounding * size);
       const WideReal depth = detail::depth_in_triangle(tool, corners, enough);
       if (depth > enough) deepest = {depth, triangle, 0};
@@ -307,8 +286,7 @@ inline Penetration deepest_penetration(const CheckedObject& object, const Checke
 }
 
 /// The deepest penetration of a tool made of convex pieces.
-inline Penetration deepest_penetration(const CheckedObject& object, const std::vector<CheckedTool>& pieces,
-                                       const CheckedPose& pose) {
+inline Penetration deepest_penetration(const CheckedObject& object, const std::vector<CheckedTool>& pieces, const CheckedPose& pose) {
   Penetration deepest;
   for (const CheckedTool& piece : pieces)
     if (const Penetration p = deepest_penetration(object, piece, pose); p.depth > deepest.depth) deepest = p;
@@ -318,8 +296,8 @@ inline Penetration deepest_penetration(const CheckedObject& object, const std::v
 /// The deepest penetration at `samples` ≥ 2 times, evenly spread along the path from the first pose to the
 /// second, both included.
 template <class ToolOrPieces>
-Penetration deepest_penetration_on_path(const CheckedObject& object, const ToolOrPieces& tool,
-                                        const CheckedPose& pose0, const CheckedPose& pose1, int samples) {
+Penetration deepest_penetration_on_path(const CheckedObject& object, const ToolOrPieces& tool, const CheckedPose& pose0, const CheckedPose& pose1,
+                                        int samples) {
   Penetration deepest;
   for (int i = 0; i < samples; ++i) {
     const WideReal t = samples > 1 ? WideReal(i) / (samples - 1) : WideReal(0);

@@ -19,9 +19,7 @@ using Indices = Eigen::Matrix<int, Eigen::Dynamic, 3>;
 
 const CheckedPose at_rest(Vector3d::Zero(), Quaterniond::Identity());
 
-CheckedPose shifted(double x, double y, double z) {
-  return {Vector3d(x, y, z), Quaterniond::Identity()};
-}
+CheckedPose shifted(double x, double y, double z) { return {Vector3d(x, y, z), Quaterniond::Identity()}; }
 
 CheckedObject triangle(const Vector3d& a, const Vector3d& b, const Vector3d& c) {
   Vertices vertices(3, 3);
@@ -61,12 +59,8 @@ double depth_of(const CheckedObject& object, const CheckedTool& tool, const Chec
 }
 
 /// Uniform in [-1, 1], the same with every standard library.
-double random_unit(std::mt19937& bits) {
-  return double(bits()) / 2147483647.5 - 1;
-}
-Vector3d random_vector(std::mt19937& bits) {
-  return {random_unit(bits), random_unit(bits), random_unit(bits)};
-}
+double random_unit(std::mt19937& bits) { return double(bits()) / 2147483647.5 - 1; }
+Vector3d random_vector(std::mt19937& bits) { return {random_unit(bits), random_unit(bits), random_unit(bits)}; }
 Quaterniond random_rotation(std::mt19937& bits) {
   return Quaterniond(random_unit(bits), random_unit(bits), random_unit(bits), random_unit(bits)).normalized();
 }
@@ -119,8 +113,7 @@ BOOST_AUTO_TEST_CASE(segment_through_a_triangle_is_as_deep_as_its_shorter_part) 
     BOOST_TEST(std::abs(depth_of(plane(), needle, shifted(1, 2, 0)) - depth) < 1e-18);
   }
   // The nearest way out may be past an edge: an upright segment 0.01 from the side of the square.
-  BOOST_TEST(std::abs(depth_of(plane(), segment({0, 0, -1}, {0, 0, 1}), shifted(8 - 0.0078125, 0, 0)) -
-                      0.0078125) < 1e-18);
+  BOOST_TEST(std::abs(depth_of(plane(), segment({0, 0, -1}, {0, 0, 1}), shifted(8 - 0.0078125, 0, 0)) - 0.0078125) < 1e-18);
 }
 
 BOOST_AUTO_TEST_CASE(a_sphere_is_as_deep_as_its_centre_is_nearer_than_the_radius) {
@@ -190,9 +183,7 @@ BOOST_AUTO_TEST_CASE(depth_is_invariant_under_a_rigid_motion_of_everything) {
     const Vector3d shift = random_vector(bits);
     const double before = depth_of(triangle(corners.col(0), corners.col(1), corners.col(2)), tool, {p, q});
     const auto moved = [&](const Vector3d& v) -> Vector3d { return motion * v + shift; };
-    const double after =
-        depth_of(triangle(moved(corners.col(0)), moved(corners.col(1)), moved(corners.col(2))), tool,
-                 {moved(p), motion * q});
+    const double after = depth_of(triangle(moved(corners.col(0)), moved(corners.col(1)), moved(corners.col(2))), tool, {moved(p), motion * q});
     BOOST_TEST(std::abs(before - after) < 5e-15);
     penetrating += before > 0;
   }
@@ -208,8 +199,7 @@ BOOST_AUTO_TEST_CASE(depth_is_the_best_separation_over_all_directions) {
   for (int i = 0; i < 60; ++i) {
     std::array<WideVector, 3> y;
     Eigen::Matrix3d corners;
-    for (int k = 0; k < 3; ++k)
-      corners.col(k) = random_vector(bits), y[std::size_t(k)] = corners.col(k).cast<WideReal>();
+    for (int k = 0; k < 3; ++k) corners.col(k) = random_vector(bits), y[std::size_t(k)] = corners.col(k).cast<WideReal>();
     const double depth = depth_of(triangle(corners.col(0), corners.col(1), corners.col(2)), tool, at_rest);
     WideReal best = -1e9L;
     WideVector best_direction = WideVector::UnitX();
@@ -239,8 +229,7 @@ BOOST_AUTO_TEST_CASE(degenerate_triangles_are_segments_and_points) {
   // A segment that enters the cube from above by 2⁻⁶, an upright sliver around it, and a point inside.
   const double depth = 0.015625;
   BOOST_TEST(depth_of(triangle({0, 0, 0.5 - depth}, {0, 0, 3}, {0, 0, 1}), cube, at_rest) == depth);
-  BOOST_TEST(std::abs(depth_of(triangle({0, 0, 0.5 - depth}, {0, 0, 3}, {1e-15, 0, 1}), cube, at_rest) -
-                      depth) < 1e-18);
+  BOOST_TEST(std::abs(depth_of(triangle({0, 0, 0.5 - depth}, {0, 0, 3}, {1e-15, 0, 1}), cube, at_rest) - depth) < 1e-18);
   BOOST_TEST(depth_of(triangle({0, 0, 0.25}, {0, 0, 0.25}, {0, 0, 0.25}), cube, at_rest) == 0.25);
   BOOST_TEST(depth_of(triangle({0, 0, 0.5}, {0, 0, 3}, {0, 0, 1}), cube, at_rest) == 0);
   BOOST_TEST(depth_of(triangle({0, 0, 0.5}, {0, 0, 0.5}, {0, 0, 0.5}), cube, at_rest) == 0);
@@ -249,8 +238,7 @@ BOOST_AUTO_TEST_CASE(degenerate_triangles_are_segments_and_points) {
   BOOST_TEST(depth_of(triangle({0, -1, 0}, {0, 1, 0}, {0, 0, 0}), needle, at_rest) == 0);
   BOOST_TEST(depth_of(triangle({-0.5, 0, 0}, {0.5, 0, 0}, {0, 0, 0}), needle, at_rest) == 0);
   BOOST_TEST(depth_of(triangle({0, 0, 0}, {0, 0, 0}, {0, 0, 0}), needle, at_rest) == 0);
-  BOOST_TEST(depth_of(triangle({0, -1, 0}, {0, 1, 0}, {0, 0, 0}), needle,
-                      {Vector3d::Zero(), Quaterniond(1, 2, 3, 4)}) == 0);
+  BOOST_TEST(depth_of(triangle({0, -1, 0}, {0, 1, 0}, {0, 0, 0}), needle, {Vector3d::Zero(), Quaterniond(1, 2, 3, 4)}) == 0);
 }
 
 BOOST_AUTO_TEST_CASE(nearly_parallel_edges_are_no_blind_spot_and_no_false_alarm) {
@@ -262,8 +250,7 @@ BOOST_AUTO_TEST_CASE(nearly_parallel_edges_are_no_blind_spot_and_no_false_alarm)
     const CheckedTool bar = box(Vector3d::Constant(0.5), turn);
     for (const double angle : {1e-3, 1e-8, 1e-12, 1e-16, 0.0})
       for (const double gap : {1e-9, -1e-9}) {
-        const Quaterniond on_its_edge(Eigen::AngleAxisd(angle, Vector3d::UnitZ()) *
-                                      Eigen::AngleAxisd(std::acos(0.0) / 2, Vector3d::UnitX()));
+        const Quaterniond on_its_edge(Eigen::AngleAxisd(angle, Vector3d::UnitZ()) * Eigen::AngleAxisd(std::acos(0.0) / 2, Vector3d::UnitX()));
         const CheckedPose pose(Vector3d(0, 0, std::sqrt(0.5) + gap), on_its_edge * turn.conjugate());
         // Out it goes upwards, or along a face of the bar, past the ends of its edge.
         const double depth = std::min(-gap, std::sqrt(0.5) * (-gap + 0.5 * std::sin(angle)));

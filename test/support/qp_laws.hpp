@@ -50,8 +50,7 @@ struct WideProblem {
   WideReal value(const Wide6& d) const { return d.dot(hessian * d) / 2 + gradient.dot(d); }
   WideReal violation(const Wide6& d) const {
     WideReal largest = 0;
-    for (Eigen::Index k = 0; k < rows.rows(); ++k)
-      largest = std::max(largest, bounds[k] - rows.row(k).dot(d));
+    for (Eigen::Index k = 0; k < rows.rows(); ++k) largest = std::max(largest, bounds[k] - rows.row(k).dot(d));
     return largest;
   }
 
@@ -80,8 +79,7 @@ KktResiduals kkt_residuals(const WideProblem& problem, const feeler::QpSolution<
     gradient -= multiplier * problem.rows.row(active.row).transpose();
     size += std::abs(multiplier) * problem.rows.row(active.row).norm();
     result.multiplier = std::min(result.multiplier, multiplier);
-    result.slackness = std::max(result.slackness,
-                                std::abs(problem.rows.row(active.row).dot(d) - problem.bounds[active.row]));
+    result.slackness = std::max(result.slackness, std::abs(problem.rows.row(active.row).dot(d) - problem.bounds[active.row]));
   }
   result.stationarity = size > 0 ? gradient.norm() / size : WideReal(0);
   result.violation = problem.violation(d);
@@ -106,9 +104,7 @@ struct BruteForceOptimum {
   WideReal value = std::numeric_limits<WideReal>::infinity();
 
   /// By which a row may be missed.
-  static WideReal rounding_of(const Wide6& d) {
-    return 64 * std::numeric_limits<WideReal>::epsilon() * d.norm();
-  }
+  static WideReal rounding_of(const Wide6& d) { return 64 * std::numeric_limits<WideReal>::epsilon() * d.norm(); }
 
   BruteForceOptimum(const WideProblem& problem, WideReal slack) {
     const WideMatrix6 inverse = Eigen::FullPivLU<WideMatrix>(problem.hessian).inverse();
@@ -128,8 +124,7 @@ struct BruteForceOptimum {
         if (!lu.isInvertible()) return;
         for (int refinement = 0; refinement < 3; ++refinement) {
           d += inverse * n.transpose() * lu.solve(lacking);
-          for (Eigen::Index i = 0; i < count; ++i)
-            lacking[i] = problem.bounds[subset[std::size_t(i)]] - slack - n.row(i).dot(d);
+          for (Eigen::Index i = 0; i < count; ++i) lacking[i] = problem.bounds[subset[std::size_t(i)]] - slack - n.row(i).dot(d);
         }
       }
       // The equality-constrained minimum of a subset is feasible or no candidate; the best of them is the
@@ -224,22 +219,15 @@ feeler::QpProblem<Scalar> random_problem(std::mt19937& bits, int family, double 
         }
         break;
       case 3:  // rank-deficient: all arms on a line, all normals across it
-        problem.add_row(
-            contact_row<Scalar>((normal.cross(side) * unit(bits) + side * unit(bits)).normalized(),
-                                0.1 * unit(bits) * normal),
-            bound());
+        problem.add_row(contact_row<Scalar>((normal.cross(side) * unit(bits) + side * unit(bits)).normalized(), 0.1 * unit(bits) * normal), bound());
         continue;
       case 4:  // wedges of 1e-6 rad
-        problem.add_row(
-            contact_row<Scalar>((sign * normal + 1e-6 * unit(bits) * side).normalized(), plane_arm), bound());
+        problem.add_row(contact_row<Scalar>((sign * normal + 1e-6 * unit(bits) * side).normalized(), plane_arm), bound());
         continue;
       case 5:  // nearly parallel, faces on faces
-        problem.add_row(
-            contact_row<Scalar>((normal + magnitude(bits, -9, -2) * random_vector(bits)).normalized(), arm),
-            bound());
+        problem.add_row(contact_row<Scalar>((normal + magnitude(bits, -9, -2) * random_vector(bits)).normalized(), arm), bound());
         continue;
-      default:
-        break;
+      default: break;
     }
     problem.add_row(contact_row<Scalar>(random_direction(bits), arm), bound());
   }
@@ -251,11 +239,9 @@ constexpr int random_problem_families = 6;
 /// Bit for bit the same answer.
 template <class Scalar>
 bool is_same(const feeler::QpSolution<Scalar>& a, const feeler::QpSolution<Scalar>& b) {
-  bool same = a.iterations == b.iterations && a.active.size() == b.active.size() &&
-              a.conflict.size() == b.conflict.size();
+  bool same = a.iterations == b.iterations && a.active.size() == b.active.size() && a.conflict.size() == b.conflict.size();
   for (int i = 0; i < 6; ++i) same = same && a.step[i] == b.step[i];
-  for (int i = 0; same && i < a.active.size(); ++i)
-    same = a.active[i].row == b.active[i].row && a.active[i].multiplier == b.active[i].multiplier;
+  for (int i = 0; same && i < a.active.size(); ++i) same = a.active[i].row == b.active[i].row && a.active[i].multiplier == b.active[i].multiplier;
   for (int i = 0; same && i < a.conflict.size(); ++i) same = a.conflict[i] == b.conflict[i];
   return same;
 }
@@ -274,8 +260,7 @@ struct QpPromise {
 /// What holds after every status: the step is finite, multipliers are non-negative, rows are in range and
 /// none is named twice.
 template <class Scalar>
-bool is_valid(const feeler::QpProblem<Scalar>& problem, const feeler::QpSolution<Scalar>& solution,
-              const QpPromise& promise = {}) {
+bool is_valid(const feeler::QpProblem<Scalar>& problem, const feeler::QpSolution<Scalar>& solution, const QpPromise& promise = {}) {
   using std::isfinite;
   bool valid = solution.iterations <= promise.most_iterations * (problem.row_count + 8);
   for (int i = 0; i < 6; ++i) valid = valid && isfinite(solution.step[i]);
@@ -296,9 +281,8 @@ bool is_valid(const feeler::QpProblem<Scalar>& problem, const feeler::QpSolution
 /// Checks one answer against the problem and against the definition of its status, in long double.
 /// @param scale  typical length; tolerances are relative to it and to the rounding of the scalar
 template <class Scalar>
-void check_answer(const feeler::QpProblem<Scalar>& problem, feeler::QpStatus status,
-                  const feeler::QpSolution<Scalar>& solution, double scale, const std::string& name,
-                  const QpPromise& promise = {}) {
+void check_answer(const feeler::QpProblem<Scalar>& problem, feeler::QpStatus status, const feeler::QpSolution<Scalar>& solution, double scale,
+                  const std::string& name, const QpPromise& promise = {}) {
   BOOST_TEST_CONTEXT(name) {
     BOOST_TEST(is_valid(problem, solution, promise));
     const WideReal epsilon = rounding_of<Scalar>();
@@ -320,19 +304,15 @@ void check_answer(const feeler::QpProblem<Scalar>& problem, feeler::QpStatus sta
         for (const auto& active : solution.active) price += WideReal(active.multiplier);
         // A solver that is not exact may be off its stationary point by its tolerance.
         const WideReal residual = promise.stationarity > 0 ? wide.hessian.norm() * tolerance : WideReal(0);
-        const WideReal size = std::abs(best.value) +
-                              std::abs(wide.value(solution.step.template cast<WideReal>())) +
-                              wide.gradient.norm() * length;
+        const WideReal size = std::abs(best.value) + std::abs(wide.value(solution.step.template cast<WideReal>())) + wide.gradient.norm() * length;
         BOOST_TEST(wide.value(solution.step.template cast<WideReal>()) <=
-                   best.value + price * (2 * tolerance + BruteForceOptimum::rounding_of(best.step)) +
-                       1e4L * epsilon * size +
+                   best.value + price * (2 * tolerance + BruteForceOptimum::rounding_of(best.step)) + 1e4L * epsilon * size +
                        3 * residual * (solution.step.template cast<WideReal>() - best.step).norm());
       }
     } else if (status == feeler::QpStatus::infeasible || promise.least_decided >= 0.99) {
       const BruteForceOptimum optimum(wide, 0);
       BOOST_TEST((!optimum.exists || optimum.step.norm() > 10 * WideReal(scale)));
-      if (status == feeler::QpStatus::iteration_limit)
-        return;  // an honest end, on the brink of infeasibility
+      if (status == feeler::QpStatus::iteration_limit) return;  // an honest end, on the brink of infeasibility
       BOOST_TEST_REQUIRE((status == feeler::QpStatus::infeasible));
       if (!promise.names_conflicts) return;
       WideRows rows(solution.conflict.size(), 6);
@@ -368,11 +348,8 @@ void check_laws(const Solve<Scalar>& solve, const Solve<Scalar>& solve_with_othe
       const double scale = magnitude(bits, -6, 3);
       const Problem problem = random_problem<Scalar>(bits, family, scale);
       const feeler::QpStatus status = solve(problem, solution);
-      (status == feeler::QpStatus::optimal           ? feasible
-       : status == feeler::QpStatus::iteration_limit ? unfinished
-                                                     : infeasible)++;
-      check_answer(problem, status, solution, scale,
-                   "family " + std::to_string(family) + " problem " + std::to_string(i), promise);
+      (status == feeler::QpStatus::optimal ? feasible : status == feeler::QpStatus::iteration_limit ? unfinished : infeasible)++;
+      check_answer(problem, status, solution, scale, "family " + std::to_string(family) + " problem " + std::to_string(i), promise);
       // The same input gives the same bits: with a solver that knows it, and with one that knows another.
       BOOST_TEST((solve(problem, again) == status));
       BOOST_TEST(is_same(solution, again));
@@ -392,8 +369,7 @@ void check_laws(const Solve<Scalar>& solve, const Solve<Scalar>& solve_with_othe
   const Wide6 free = Eigen::FullPivLU<WideMatrix>(-WideProblem(problem).hessian).solve(WideProblem(problem).gradient);
   for (const Scalar& bound : {Scalar(0), Scalar(-1)}) {
     BOOST_TEST((solve(problem, solution) == feeler::QpStatus::optimal));
-    BOOST_TEST((solution.step.template cast<WideReal>() - free).norm() <=
-               1e6L * rounding_of<Scalar>() * free.norm());
+    BOOST_TEST((solution.step.template cast<WideReal>() - free).norm() <= 1e6L * rounding_of<Scalar>() * free.norm());
     BOOST_TEST(solution.active.empty());
     problem.clear_rows();
     problem.add_row(feeler::Vector6<Scalar>::Zero(), bound);
@@ -414,15 +390,13 @@ void check_laws(const Solve<Scalar>& solve, const Solve<Scalar>& solve_with_othe
     problem = random_problem<Scalar>(bits, 0, 1);
     problem.clear_rows();
     while (problem.row_count < Problem::row_capacity)
-      problem.add_row(contact_row<Scalar>(random_direction(bits), 0.1 * random_vector(bits)),
-                      Scalar(-0.1 * fraction(bits)));
+      problem.add_row(contact_row<Scalar>(random_direction(bits), 0.1 * random_vector(bits)), Scalar(-0.1 * fraction(bits)));
     BOOST_TEST(!problem.add_row(feeler::Vector6<Scalar>::Zero(), Scalar(0)));
     const feeler::QpStatus status = solve(problem, solution);
     BOOST_TEST(is_valid(problem, solution, promise));
     if (status == feeler::QpStatus::iteration_limit && !promise.decides_many_rows) continue;
     BOOST_TEST((status == feeler::QpStatus::optimal));
-    BOOST_TEST(kkt_residuals(WideProblem(problem), solution).violation <=
-               WideReal(promise.tolerance) + 256 * rounding_of<Scalar>());
+    BOOST_TEST(kkt_residuals(WideProblem(problem), solution).violation <= WideReal(promise.tolerance) + 256 * rounding_of<Scalar>());
   }
 
   // A Hessian that is not positive definite is refused and leaves a step of zero.
@@ -437,8 +411,8 @@ void check_laws(const Solve<Scalar>& solve, const Solve<Scalar>& solve_with_othe
   }
 
   // A NaN or an infinity anywhere ends, and leaves a valid answer.
-  for (const Scalar& bad : {std::numeric_limits<Scalar>::quiet_NaN(), std::numeric_limits<Scalar>::infinity(),
-                           -std::numeric_limits<Scalar>::infinity()}) {
+  for (const Scalar& bad :
+       {std::numeric_limits<Scalar>::quiet_NaN(), std::numeric_limits<Scalar>::infinity(), -std::numeric_limits<Scalar>::infinity()}) {
     for (int place = 0; place < 100; ++place) {
       BOOST_TEST_CONTEXT("bad value " << bad << " place " << place) {
         problem = random_problem<Scalar>(bits, place % random_problem_families, 1);

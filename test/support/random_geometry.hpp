@@ -10,20 +10,12 @@
 namespace feeler_test {
 
 /// Uniform in [-1, 1).
-inline double unit(std::mt19937& bits) {
-  return double(bits()) / 2147483648.0 - 1.0;
-}
+inline double unit(std::mt19937& bits) { return double(bits()) / 2147483648.0 - 1.0; }
 /// Uniform in [0, 1).
-inline double fraction(std::mt19937& bits) {
-  return double(bits()) / 4294967296.0;
-}
-inline int below(std::mt19937& bits, int count) {
-  return int(bits() % unsigned(count));
-}
+inline double fraction(std::mt19937& bits) { return double(bits()) / 4294967296.0; }
+inline int below(std::mt19937& bits, int count) { return int(bits() % unsigned(count)); }
 /// From 10^low to 10^high, uniform in the exponent.
-inline double magnitude(std::mt19937& bits, double low, double high) {
-  return std::pow(10.0, low + (high - low) * fraction(bits));
-}
+inline double magnitude(std::mt19937& bits, double low, double high) { return std::pow(10.0, low + (high - low) * fraction(bits)); }
 inline Eigen::Vector3d random_vector(std::mt19937& bits) {
   const double x = unit(bits), y = unit(bits), z = unit(bits);
   return {x, y, z};

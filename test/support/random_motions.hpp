@@ -21,8 +21,7 @@ struct RandomMotion {
     pose.translation = offset * random_vector(bits) + 0.1 * random_vector(bits);
     pose.rotation = random_rotation(bits);
     const int kind = below(bits, 6);
-    motion.linear =
-        kind == 0 ? Vector(Vector::Zero()) : Vector(magnitude(bits, -6, -0.5) * random_direction(bits));
+    motion.linear = kind == 0 ? Vector(Vector::Zero()) : Vector(magnitude(bits, -6, -0.5) * random_direction(bits));
     motion.angular = kind == 1   ? Vector(Vector::Zero())
                      : kind == 2 ? Vector(3.14159 * random_direction(bits))
                                  : Vector(magnitude(bits, -5, 0.4) * random_direction(bits));
@@ -31,8 +30,8 @@ struct RandomMotion {
   feeler::MovingTool<Tool> moving() const { return {tool, reference, radius, pose, motion}; }
   feeler::test::WideMotion wide() const {
     using feeler::test::WideReal;
-    return {reference.cast<WideReal>(), pose.translation.cast<WideReal>(), motion.linear.cast<WideReal>(),
-            motion.angular.cast<WideReal>(), pose.rotation.cast<WideReal>()};
+    return {reference.cast<WideReal>(), pose.translation.cast<WideReal>(), motion.linear.cast<WideReal>(), motion.angular.cast<WideReal>(),
+            pose.rotation.cast<WideReal>()};
   }
 
   Tool tool;

@@ -35,9 +35,7 @@ template <class Core>
 feeler::SphereSwept<Core> swept(std::mt19937& bits, const Core& core) {
   return {core, magnitude(bits, -3, -1.3)};
 }
-inline feeler::Sphere<double> random_sphere(std::mt19937& bits) {
-  return swept(bits, feeler::Point<double>(0.1 * random_vector(bits)));
-}
+inline feeler::Sphere<double> random_sphere(std::mt19937& bits) { return swept(bits, feeler::Point<double>(0.1 * random_vector(bits))); }
 inline feeler::Capsule<double> random_capsule(std::mt19937& bits) { return swept(bits, random_segment(bits)); }
 inline feeler::RoundedBox<double> random_rounded_box(std::mt19937& bits) { return swept(bits, random_box(bits)); }
 
@@ -49,18 +47,13 @@ inline Eigen::Matrix3d random_triangle(std::mt19937& bits, Shape shape) {
   const double size = shape == Shape::small ? 1e-3 : shape == Shape::large ? 3 : 0.1;
   for (int k = 0; k < 3; ++k) corners.col(k) = size * random_vector(bits);
   const Vector edge = corners.col(1) - corners.col(0);
-  if (shape == Shape::sliver)
-    corners.col(2) = corners.col(0) + fraction(bits) * edge + magnitude(bits, -13, -5) * random_vector(bits);
-  if (shape == Shape::needle)
-    corners.col(2) = corners.col(1) + magnitude(bits, -13, -5) * random_vector(bits);
-  if (shape == Shape::segment)
-    corners.col(2) = below(bits, 2) == 0 ? corners.col(1) : Vector(corners.col(0) + edge / 2);
+  if (shape == Shape::sliver) corners.col(2) = corners.col(0) + fraction(bits) * edge + magnitude(bits, -13, -5) * random_vector(bits);
+  if (shape == Shape::needle) corners.col(2) = corners.col(1) + magnitude(bits, -13, -5) * random_vector(bits);
+  if (shape == Shape::segment) corners.col(2) = below(bits, 2) == 0 ? corners.col(1) : Vector(corners.col(0) + edge / 2);
   if (shape == Shape::point) corners.col(2) = corners.col(1) = corners.col(0);
   return corners;
 }
-inline Shape random_shape(std::mt19937& bits) {
-  return below(bits, 2) == 0 ? Shape::ordinary : Shape(below(bits, 7));
-}
+inline Shape random_shape(std::mt19937& bits) { return below(bits, 2) == 0 ? Shape::ordinary : Shape(below(bits, 7)); }
 
 inline feeler::test::WideTriangle wide(const Eigen::Matrix3d& corners) {
   using feeler::test::WideReal;

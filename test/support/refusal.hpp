@@ -17,8 +17,6 @@ std::string refusal(const Build& build) {
   return "accepted";
 }
 
-inline bool contains(const std::string& text, const char* part) {
-  return text.find(part) != std::string::npos;
-}
+inline bool contains(const std::string& text, const char* part) { return text.find(part) != std::string::npos; }
 
 }  // namespace feeler_test

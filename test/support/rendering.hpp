@@ -93,12 +93,11 @@ template <class Scalar>
 bool is_valid(const Tick<Scalar>& tick, int triangle_count) {
   const Scalar unit_tolerance = 8 * std::numeric_limits<Scalar>::epsilon();
   const auto is_unit = [&](const auto& coefficients) { return std::abs(coefficients.norm() - Scalar(1)) <= unit_tolerance; };
-  bool valid = tick.graphic_pose.translation.allFinite() && is_unit(tick.graphic_pose.rotation.coeffs()) &&
-               tick.wrench.force.allFinite() && tick.wrench.torque.allFinite();
+  bool valid = tick.graphic_pose.translation.allFinite() && is_unit(tick.graphic_pose.rotation.coeffs()) && tick.wrench.force.allFinite() &&
+               tick.wrench.torque.allFinite();
   for (const auto& contact : tick.contacts) {
-    valid = valid && contact.triangle >= 0 && contact.triangle < triangle_count && contact.point_world.allFinite() &&
-            is_unit(contact.normal_world) && std::isfinite(contact.gap) && contact.force >= Scalar(0) &&
-            std::isfinite(contact.force);
+    valid = valid && contact.triangle >= 0 && contact.triangle < triangle_count && contact.point_world.allFinite() && is_unit(contact.normal_world) &&
+            std::isfinite(contact.gap) && contact.force >= Scalar(0) && std::isfinite(contact.force);
   }
   for (const auto& pose : tick.path) valid = valid && pose.translation.allFinite() && is_unit(pose.rotation.coeffs());
   return valid && (tick.path.empty() || is_same(tick.path.back(), tick.graphic_pose));
@@ -125,8 +124,7 @@ struct Witness {
     CheckedPose last = checked_pose(from);
     for (const auto& pose : tick.path) {
       const CheckedPose next = checked_pose(pose);
-      deepest = std::max(deepest,
-                         static_cast<double>(deepest_penetration_on_path(object, tool, last, next, samples_a_leg).depth));
+      deepest = std::max(deepest, static_cast<double>(deepest_penetration_on_path(object, tool, last, next, samples_a_leg).depth));
       last = next;
     }
     return deepest;

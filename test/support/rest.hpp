@@ -32,14 +32,16 @@ void check_rest(const scenes::Setting& scene, const Tool& tool, const std::strin
     int rest = 0;
     for (int k = 1; k <= holding.held_ticks; ++k) {
       const auto& tick = held.update(scene.motion(i * 1e-3));
-      if (!is_same(tick.graphic_pose, last.graphic_pose) || tick.wrench.force != last.wrench.force || tick.wrench.torque != last.wrench.torque) rest = k;
+      if (!is_same(tick.graphic_pose, last.graphic_pose) || tick.wrench.force != last.wrench.force || tick.wrench.torque != last.wrench.torque)
+        rest = k;
       last = tick;
     }
     ++held_times;
     moving += rest > holding.latest;
     latest = std::max(latest, rest);
   }
-  BOOST_TEST_MESSAGE(name << ": held " << held_times << " times, at rest after at most " << latest << " ticks, not at rest after " << holding.latest << ": " << moving);
+  BOOST_TEST_MESSAGE(name << ": held " << held_times << " times, at rest after at most " << latest << " ticks, not at rest after " << holding.latest
+                          << ": " << moving);
   BOOST_TEST_CONTEXT(name) BOOST_TEST(moving == 0);
 }
 

@@ -32,8 +32,7 @@ void check_tool_laws(const Tool& tool, bool solid = true, unsigned seed = 1) {
     upper = upper.cwiseMax(wide(tool.vertex(i)));
   }
   const auto eps = static_cast<long double>(std::numeric_limits<Scalar>::epsilon());
-  const long double size =
-      (upper - lower).norm() + std::max(lower.cwiseAbs().maxCoeff(), upper.cwiseAbs().maxCoeff());
+  const long double size = (upper - lower).norm() + std::max(lower.cwiseAbs().maxCoeff(), upper.cwiseAbs().maxCoeff());
   const long double tolerance = 16 * eps * size;
 
   // support is a vertex with the largest dot product, to the rounding of a dot product
@@ -44,12 +43,10 @@ void check_tool_laws(const Tool& tool, bool solid = true, unsigned seed = 1) {
     BOOST_TEST_REQUIRE((found >= 0 && found < n));
     long double best = -std::numeric_limits<long double>::infinity();
     for (int i = 0; i < n; ++i) best = std::max(best, wide(direction).dot(wide(tool.vertex(i))));
-    BOOST_TEST(wide(direction).dot(wide(tool.vertex(found))) >=
-               best - 4 * eps * size * wide(direction).norm());
+    BOOST_TEST(wide(direction).dot(wide(tool.vertex(found))) >= best - 4 * eps * size * wide(direction).norm());
     BOOST_TEST(std::abs(static_cast<long double>(feeler::highest_along(tool, direction)) - best) <= 4 * eps * size * wide(direction).norm());
   };
-  for (int i = 0; i < 200; ++i)
-    check_support(feeler::Vector3<Scalar>(Scalar(normal(bits)), Scalar(normal(bits)), Scalar(normal(bits))));
+  for (int i = 0; i < 200; ++i) check_support(feeler::Vector3<Scalar>(Scalar(normal(bits)), Scalar(normal(bits)), Scalar(normal(bits))));
   for (int k = 0; k < 3; ++k) {
     check_support(feeler::Vector3<Scalar>::Unit(k));
     check_support(-feeler::Vector3<Scalar>::Unit(k));
@@ -61,20 +58,15 @@ void check_tool_laws(const Tool& tool, bool solid = true, unsigned seed = 1) {
   std::set<std::pair<int, int>> edges;
   for (int i = 0; i < tool.edge_count(); ++i) {
     const feeler::ToolEdge edge = tool.edge(i);
-    BOOST_TEST_REQUIRE(
-        (edge.start >= 0 && edge.start < n && edge.end >= 0 && edge.end < n && edge.start != edge.end));
+    BOOST_TEST_REQUIRE((edge.start >= 0 && edge.start < n && edge.end >= 0 && edge.end < n && edge.start != edge.end));
     BOOST_TEST(edges.insert(std::minmax({edge.start, edge.end})).second);
     const Wide along = wide(tool.vertex(edge.end)) - wide(tool.vertex(edge.start));
     long double off = std::numeric_limits<long double>::infinity();
-    for (int d = 0; d < tool.edge_direction_count(); ++d)
-      off = std::min(off, along.cross(wide(tool.edge_direction(d)).normalized()).norm());
+    for (int d = 0; d < tool.edge_direction_count(); ++d) off = std::min(off, along.cross(wide(tool.edge_direction(d)).normalized()).norm());
     BOOST_TEST(off <= 32 * eps * along.norm() + tolerance);
   }
   for (int a = 0; a < tool.edge_direction_count(); ++a)
-    for (int b = 0; b < a; ++b)
-      BOOST_TEST(
-          wide(tool.edge_direction(a)).normalized().cross(wide(tool.edge_direction(b)).normalized()).norm() >
-          0);
+    for (int b = 0; b < a; ++b) BOOST_TEST(wide(tool.edge_direction(a)).normalized().cross(wide(tool.edge_direction(b)).normalized()).norm() > 0);
 
   // faces are planar, support the tool from outside, run counter-clockwise, and have an axis listed
   std::map<std::pair<int, int>, int> sides;
@@ -96,8 +88,7 @@ void check_tool_laws(const Tool& tool, bool solid = true, unsigned seed = 1) {
     BOOST_TEST(area.dot(face_normal) > 0);
     for (int v = 0; v < n; ++v) BOOST_TEST(face_normal.dot(wide(tool.vertex(v)) - first) <= tolerance);
     long double off = std::numeric_limits<long double>::infinity();
-    for (int a = 0; a < tool.face_axis_count(); ++a)
-      off = std::min(off, face_normal.cross(wide(tool.face_axis(a)).normalized()).norm());
+    for (int a = 0; a < tool.face_axis_count(); ++a) off = std::min(off, face_normal.cross(wide(tool.face_axis(a)).normalized()).norm());
     BOOST_TEST(off <= 64 * eps);
   }
   if (!solid) return;

@@ -54,8 +54,7 @@ inline WideVector closest_on_wide_segment(const WideVector& point, const WideVec
 }
 
 /// By the edges, and, where the foot of the perpendicular is inside all of them, by the plane.
-inline WideVector closest_on_wide_triangle(const WideVector& point, const WideVector& a, const WideVector& b,
-                                           const WideVector& c) {
+inline WideVector closest_on_wide_triangle(const WideVector& point, const WideVector& a, const WideVector& b, const WideVector& c) {
   WidePair best;
   best.take(point, closest_on_wide_segment(point, a, b));
   best.take(point, closest_on_wide_segment(point, b, c));
@@ -63,15 +62,12 @@ inline WideVector closest_on_wide_triangle(const WideVector& point, const WideVe
   const WideVector normal = detail::normal_of(b - a, c - a);
   if (normal.isZero(0)) return best.on_second;
   const WideVector foot = point - normal.dot(point - a) * normal;
-  const auto side = [&](const WideVector& start, const WideVector& end) {
-    return (end - start).cross(foot - start).dot(normal);
-  };
+  const auto side = [&](const WideVector& start, const WideVector& end) { return (end - start).cross(foot - start).dot(normal); };
   if (side(a, b) > 0 && side(b, c) > 0 && side(c, a) > 0) best.take(point, foot);
   return best.on_second;
 }
 
-inline void take_segments(const WideVector& a, const WideVector& b, const WideVector& c, const WideVector& d,
-                          WidePair& best) {
+inline void take_segments(const WideVector& a, const WideVector& b, const WideVector& c, const WideVector& d, WidePair& best) {
   best.take(a, closest_on_wide_segment(a, c, d));
   best.take(b, closest_on_wide_segment(b, c, d));
   best.take(closest_on_wide_segment(c, a, b), c);

@@ -27,8 +27,7 @@ struct WideTool {
   template <class Tool>
   explicit WideTool(const Tool& tool) {
     if constexpr (requires { tool.swept_radius(); }) radius = WideReal(tool.swept_radius());
-    for (int i = 0; i < tool.vertex_count(); ++i)
-      vertices.push_back(WideVector(tool.vertex(i).template cast<WideReal>()));
+    for (int i = 0; i < tool.vertex_count(); ++i) vertices.push_back(WideVector(tool.vertex(i).template cast<WideReal>()));
     for (int i = 0; i < tool.edge_count(); ++i) edges.push_back({tool.edge(i).start, tool.edge(i).end});
     for (int i = 0; i < tool.face_count(); ++i) {
       const auto face = tool.face(i);
@@ -55,29 +54,22 @@ struct WideTool {
 inline WidePair closest_features(const WideTool& tool, const WideTriangle& triangle) {
   WidePair best;
   const auto vertex = [&](int i) -> const WideVector& { return tool.vertices[std::size_t(i)]; };
-  for (const WideVector& v : tool.vertices)
-    best.take(v, closest_on_wide_triangle(v, triangle[0], triangle[1], triangle[2]));
+  for (const WideVector& v : tool.vertices) best.take(v, closest_on_wide_triangle(v, triangle[0], triangle[1], triangle[2]));
   for (const auto& edge : tool.edges)
-    for (std::size_t k = 0; k < 3; ++k)
-      take_segments(vertex(edge[0]), vertex(edge[1]), triangle[k], triangle[(k + 1) % 3], best);
+    for (std::size_t k = 0; k < 3; ++k) take_segments(vertex(edge[0]), vertex(edge[1]), triangle[k], triangle[(k + 1) % 3], best);
   for (const auto& face : tool.faces)
     for (std::size_t i = 2; i < face.size(); ++i)
-      for (const WideVector& y : triangle)
-        best.take(closest_on_wide_triangle(y, vertex(face[0]), vertex(face[i - 1]), vertex(face[i])), y);
+      for (const WideVector& y : triangle) best.take(closest_on_wide_triangle(y, vertex(face[0]), vertex(face[i - 1]), vertex(face[i])), y);
   return best;
 }
 
 /// Whether the shapes, of a swept tool its core, have a point in common: an edge of one pierces the other, or one is inside the other.
 inline bool intersect(const WideTool& tool, const WideTriangle& triangle) {
-  const auto pierces = [](const WideVector& p, const WideVector& q, const WideVector& a, const WideVector& b,
-                          const WideVector& c) {
-    const auto volume = [](const WideVector& u, const WideVector& v, const WideVector& w) {
-      return u.cross(v).dot(w);
-    };
+  const auto pierces = [](const WideVector& p, const WideVector& q, const WideVector& a, const WideVector& b, const WideVector& c) {
+    const auto volume = [](const WideVector& u, const WideVector& v, const WideVector& w) { return u.cross(v).dot(w); };
     const WideReal sp = volume(b - a, c - a, p - a), sq = volume(b - a, c - a, q - a);
     if ((sp > 0) == (sq > 0)) return false;
-    const WideReal x = volume(q - p, a - p, b - p), y = volume(q - p, b - p, c - p),
-                   z = volume(q - p, c - p, a - p);
+    const WideReal x = volume(q - p, a - p, b - p), y = volume(q - p, b - p, c - p), z = volume(q - p, c - p, a - p);
     return (x >= 0 && y >= 0 && z >= 0) || (x <= 0 && y <= 0 && z <= 0);
   };
   const auto vertex = [&](int i) -> const WideVector& { return tool.vertices[std::size_t(i)]; };
@@ -87,9 +79,7 @@ inline bool intersect(const WideTool& tool, const WideTriangle& triangle) {
   for (const auto& face : tool.faces) {
     for (std::size_t i = 2; i < face.size(); ++i)
       for (std::size_t k = 0; k < 3; ++k)
-        if (pierces(triangle[k], triangle[(k + 1) % 3], vertex(face[0]), vertex(face[i - 1]),
-                    vertex(face[i])))
-          return true;
+        if (pierces(triangle[k], triangle[(k + 1) % 3], vertex(face[0]), vertex(face[i - 1]), vertex(face[i]))) return true;
     const WideVector normal = (vertex(face[1]) - vertex(face[0])).cross(vertex(face[2]) - vertex(face[0]));
     is_inside = is_inside && normal.dot(triangle[0] - vertex(face[0])) < 0;
   }
@@ -105,8 +95,7 @@ struct WideMotion {
   Eigen::Quaternion<WideReal> rotation_at(WideReal t) const {
     const WideReal angle = angular.norm();
     if (!(angle > 0)) return rotation.normalized();
-    return (Eigen::Quaternion<WideReal>(Eigen::AngleAxis<WideReal>(t * angle, angular / angle)) * rotation)
-        .normalized();
+    return (Eigen::Quaternion<WideReal>(Eigen::AngleAxis<WideReal>(t * angle, angular / angle)) * rotation).normalized();
   }
   /// Pose of the tool frame.
   CheckedPose pose_at(WideReal t) const {

@@ -20,12 +20,8 @@ using Vector = feeler::Vector3<double>;
 using Polytope = feeler::ConvexPolytope<double>;
 
 namespace {
-double unit(std::mt19937& bits) {
-  return double(bits()) / 2147483648.0 - 1.0;
-}
-Vector random_vector(std::mt19937& bits) {
-  return {unit(bits), unit(bits), unit(bits)};
-}
+double unit(std::mt19937& bits) { return double(bits()) / 2147483648.0 - 1.0; }
+Vector random_vector(std::mt19937& bits) { return {unit(bits), unit(bits), unit(bits)}; }
 
 Points<double> rows(const std::vector<Vector>& points) {
   Points<double> result(Eigen::Index(points.size()), 3);
@@ -34,8 +30,7 @@ Points<double> rows(const std::vector<Vector>& points) {
 }
 std::vector<Vector> cube_corners() {
   std::vector<Vector> points;
-  for (int i = 0; i < 8; ++i)
-    points.emplace_back((i & 1) != 0 ? 1 : -1, (i & 2) != 0 ? 1 : -1, (i & 4) != 0 ? 1 : -1);
+  for (int i = 0; i < 8; ++i) points.emplace_back((i & 1) != 0 ? 1 : -1, (i & 2) != 0 ? 1 : -1, (i & 4) != 0 ? 1 : -1);
   return points;
 }
 std::vector<Vector> ellipsoid(int count, const Vector& radii, unsigned seed) {
@@ -54,8 +49,8 @@ template <class Scalar>
 void check_hull(const feeler::ConvexPolytope<Scalar>& hull, const Points<Scalar>& points) {
   feeler_test::check_tool_laws(hull);
   using Wide = feeler::Vector3<long double>;
-  const long double size = static_cast<long double>(
-      (points.colwise().maxCoeff() - points.colwise().minCoeff()).norm() + points.cwiseAbs().maxCoeff());
+  const long double size =
+      static_cast<long double>((points.colwise().maxCoeff() - points.colwise().minCoeff()).norm() + points.cwiseAbs().maxCoeff());
   const long double tolerance = 8 * static_cast<long double>(std::numeric_limits<Scalar>::epsilon()) * size;
   // Climbing ends at a highest vertex, from wherever it starts.
   std::mt19937 bits(7);
@@ -75,8 +70,7 @@ void check_hull(const feeler::ConvexPolytope<Scalar>& hull, const Points<Scalar>
     const Wide normal = face.normal.template cast<long double>();
     const Wide origin = hull.vertex(face.vertices[0]).template cast<long double>();
     for (int i = 0; i < int(points.rows()); ++i)
-      outside =
-          std::max(outside, normal.dot(points.row(i).transpose().template cast<long double>() - origin));
+      outside = std::max(outside, normal.dot(points.row(i).transpose().template cast<long double>() - origin));
   }
   BOOST_TEST(outside <= tolerance);
   // An independent look from many sides: no input point is farther out than the hull.
@@ -86,9 +80,7 @@ void check_hull(const feeler::ConvexPolytope<Scalar>& hull, const Points<Scalar>
     BOOST_TEST((points.template cast<long double>() * d).maxCoeff() <= reach + tolerance);
   }
 }
-void check_hull(const std::vector<Vector>& points) {
-  check_hull(Polytope::hull_of(rows(points)), rows(points));
-}
+void check_hull(const std::vector<Vector>& points) { check_hull(Polytope::hull_of(rows(points)), rows(points)); }
 
 std::string refusal_of(const std::vector<Vector>& points) {
   return feeler_test::refusal([&] { Polytope::hull_of(rows(points)); });
@@ -102,8 +94,7 @@ BOOST_AUTO_TEST_CASE(cube_has_six_quads_at_any_size_place_and_turn) {
       for (int turn = 0; turn < 20; ++turn) {
         std::vector<Vector> points = cube_corners();
         const Eigen::Quaterniond q =
-            turn == 0 ? Eigen::Quaterniond::Identity()
-                      : Eigen::Quaterniond(unit(bits), unit(bits), unit(bits), unit(bits)).normalized();
+            turn == 0 ? Eigen::Quaterniond::Identity() : Eigen::Quaterniond(unit(bits), unit(bits), unit(bits), unit(bits)).normalized();
         for (int i = 0; i < 200; ++i) {  // inside, on faces, on edges
           Vector p = random_vector(bits);
           for (int k = 0; k < i % 3; ++k) p[k] = 1;
@@ -212,8 +203,7 @@ BOOST_AUTO_TEST_CASE(support_agrees_with_brute_force_at_every_size) {
   for (const int count : {4, 7, 8, 9, 16, 31, 33, 127, 128, 129, 135, 300}) {
     const Polytope hull = Polytope::hull_of(rows(ellipsoid(count, Vector(1, 1, 1), unsigned(count))));
     BOOST_TEST(hull.vertex_count() == count);
-    for (int i = 0; i < count; ++i)
-      BOOST_TEST(hull.support(hull.vertex(i)) == i);  // on a sphere a vertex is its own
+    for (int i = 0; i < count; ++i) BOOST_TEST(hull.support(hull.vertex(i)) == i);  // on a sphere a vertex is its own
     feeler_test::check_tool_laws(hull);
   }
 }

@@ -39,8 +39,8 @@ BOOST_AUTO_TEST_CASE(points_and_swept_tools_obey_the_laws_of_their_cores_in_ever
   check_in_every_scalar(Sphere<double>(0.01), false);
   check_in_every_scalar(Capsule<double>({{0, 0, -1}, {0.5, 0, 1}}, 0.25), false);
   check_in_every_scalar(RoundedBox<double>(Box<double>({1, 2, 3}), 0.5), true);
-  check_in_every_scalar(RoundedPolytope<double>(ConvexPolytope<double>::hull_of(
-                            feeler::Points<double>{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}}), 0.125), true);
+  check_in_every_scalar(
+      RoundedPolytope<double>(ConvexPolytope<double>::hull_of(feeler::Points<double>{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}}), 0.125), true);
 }
 
 BOOST_AUTO_TEST_CASE(a_swept_tool_is_its_core_and_a_radius_in_every_scalar) {

@@ -14,11 +14,7 @@ namespace {
 constexpr double period = 1e-3;
 
 HandGuide guide_at_rest() {
-  return {Pose<double>{},
-          [](double t) {
-            return Pose<double>{{0.02 * t, 0, 0.01}, Eigen::Quaterniond::Identity()};
-          },
-          0.1, period};
+  return {Pose<double>{}, [](double t) { return Pose<double>{{0.02 * t, 0, 0.01}, Eigen::Quaterniond::Identity()}; }, 0.1, period};
 }
 
 }  // namespace

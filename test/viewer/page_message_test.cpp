@@ -14,8 +14,7 @@ using feeler::viewer::parse_page_message;
 using feeler::viewer::SceneRequest;
 
 BOOST_AUTO_TEST_CASE(a_hand_is_read_and_its_quaternion_made_unit) {
-  const auto parsed =
-      parse_page_message(R"({"type":"hand","stage":3,"position":[0.1,0,-0.2],"orientation":[0,0,0,2]})");
+  const auto parsed = parse_page_message(R"({"type":"hand","stage":3,"position":[0.1,0,-0.2],"orientation":[0,0,0,2]})");
   BOOST_REQUIRE(parsed.message.has_value());
   const auto& hand = std::get<HandRequest>(*parsed.message);
   BOOST_TEST((hand.mode == HandMode::person));
@@ -25,8 +24,7 @@ BOOST_AUTO_TEST_CASE(a_hand_is_read_and_its_quaternion_made_unit) {
 }
 
 BOOST_AUTO_TEST_CASE(a_scene_is_read_with_what_it_says_and_no_more) {
-  const auto parsed =
-      parse_page_message(R"({"type":"scene","scene":"cavity","clearance":1e-5,"method":"paper"})");
+  const auto parsed = parse_page_message(R"({"type":"scene","scene":"cavity","clearance":1e-5,"method":"paper"})");
   BOOST_REQUIRE(parsed.message.has_value());
   const auto& scene = std::get<SceneRequest>(*parsed.message);
   BOOST_TEST(scene.scene == "cavity");

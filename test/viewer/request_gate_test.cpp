@@ -13,8 +13,7 @@ using feeler::viewer::RequestHead;
 
 BOOST_AUTO_TEST_CASE(the_own_page_is_admitted_by_each_name_of_this_machine) {
   const RequestGate gate("127.0.0.1", 4280, "");
-  for (const char* host : {"127.0.0.1:4280", "localhost:4280", "[::1]:4280"})
-    BOOST_TEST(bool(gate.judge({"GET", "/", host, "", false})), host);
+  for (const char* host : {"127.0.0.1:4280", "localhost:4280", "[::1]:4280"}) BOOST_TEST(bool(gate.judge({"GET", "/", host, "", false})), host);
   BOOST_TEST(bool(gate.judge({"GET", "/live", "localhost:4280", "http://localhost:4280", true})));
 }
 
@@ -43,8 +42,7 @@ BOOST_AUTO_TEST_CASE(with_a_token_nothing_is_admitted_without_it) {
   const char* const host = "192.168.1.5:4280";
   BOOST_TEST(bool(gate.judge({"GET", "/?token=secret", host, "", false})));
   BOOST_TEST(bool(gate.judge({"GET", "/live?a=b&token=secret", host, "http://192.168.1.5:4280", true})));
-  for (const char* target : {"/", "/?token=", "/?token=secre", "/?token=secret1", "/?tokens=secret",
-                             "/?Token=secret", "/token=secret"})
+  for (const char* target : {"/", "/?token=", "/?token=secre", "/?token=secret1", "/?tokens=secret", "/?Token=secret", "/token=secret"})
     BOOST_TEST(!gate.judge({"GET", target, host, "", false}), target);
   BOOST_TEST(!gate.judge({"GET", "/live?token=secret", host, "http://evil.example", true}));
 }

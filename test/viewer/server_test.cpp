@@ -27,15 +27,12 @@ using Tcp = asio::ip::tcp;
 using feeler::viewer::Server;
 using feeler::viewer::ServerSettings;
 
-std::shared_ptr<const std::string> shared(std::string text) {
-  return std::make_shared<const std::string>(std::move(text));
-}
+std::shared_ptr<const std::string> shared(std::string text) { return std::make_shared<const std::string>(std::move(text)); }
 
 ServerSettings with_a_page() {
   ServerSettings settings;
   settings.resource = [](std::string_view path) {
-    return path == "/" ? feeler::viewer::Resource{"text/html", shared("<p>here")}
-                       : feeler::viewer::Resource{};
+    return path == "/" ? feeler::viewer::Resource{"text/html", shared("<p>here")} : feeler::viewer::Resource{};
   };
   settings.on_open = [](feeler::viewer::PageLink& page) { page.send_text(shared("hello")); };
   settings.on_text = [](std::string_view text) { return "you said " + std::string(text); };
@@ -59,21 +56,16 @@ std::string raw(const Server& server, const std::string& request) {
   return response;
 }
 
-std::string get(const Started& server, const std::string& target, const std::string& host,
-                const std::string& more = "") {
-  return raw(server,
-             "GET " + target + " HTTP/1.1\r\nHost: " + host + "\r\nConnection: close\r\n" + more + "\r\n");
+std::string get(const Started& server, const std::string& target, const std::string& host, const std::string& more = "") {
+  return raw(server, "GET " + target + " HTTP/1.1\r\nHost: " + host + "\r\nConnection: close\r\n" + more + "\r\n");
 }
 
-bool starts(const std::string& text, const std::string& beginning) {
-  return text.rfind(beginning, 0) == 0;
-}
+bool starts(const std::string& text, const std::string& beginning) { return text.rfind(beginning, 0) == 0; }
 
 /// A page that is open.
 class Client {
  public:
-  explicit Client(const Started& server, const std::string& origin = "", const std::string& target = "/live")
-      : socket_(context_) {
+  explicit Client(const Started& server, const std::string& origin = "", const std::string& target = "/live") : socket_(context_) {
     socket_.next_layer().connect({asio::ip::make_address("127.0.0.1"), server.port()});
     socket_.set_option(websocket::stream_base::decorator([origin](websocket::request_type& request) {
       if (!origin.empty()) request.set(boost::beast::http::field::origin, origin);
@@ -90,8 +82,7 @@ class Client {
   websocket::close_code wait_for_close() {
     try {
       for (;;) read();
-    } catch (const boost::system::system_error&) {
-    }
+    } catch (const boost::system::system_error&) {}
     return websocket::close_code(socket_.reason().code);
   }
 
@@ -116,14 +107,9 @@ BOOST_AUTO_TEST_CASE(the_page_is_at_the_root_and_nothing_elsewhere) {
 BOOST_AUTO_TEST_CASE(foreign_hosts_long_headers_bodies_and_garbage_are_refused_and_the_server_goes_on) {
   const Started server(with_a_page());
   BOOST_TEST(starts(get(server, "/", "evil.example"), "HTTP/1.1 403"));
-  BOOST_TEST(
-      starts(raw(server, "POST / HTTP/1.1\r\nHost: " + server.host() + "\r\nConnection: close\r\n\r\n"),
-             "HTTP/1.1 405"));
-  BOOST_TEST(
-      starts(get(server, "/", server.host(), "X: " + std::string(20000, 'x') + "\r\n"), "HTTP/1.1 431"));
-  BOOST_TEST(starts(
-      raw(server, "GET / HTTP/1.1\r\nHost: " + server.host() + "\r\nContent-Length: 10\r\n\r\n0123456789"),
-      "HTTP/1.1 431"));
+  BOOST_TEST(starts(raw(server, "POST / HTTP/1.1\r\nHost: " + server.host() + "\r\nConnection: close\r\n\r\n"), "HTTP/1.1 405"));
+  BOOST_TEST(starts(get(server, "/", server.host(), "X: " + std::string(20000, 'x') + "\r\n"), "HTTP/1.1 431"));
+  BOOST_TEST(starts(raw(server, "GET / HTTP/1.1\r\nHost: " + server.host() + "\r\nContent-Length: 10\r\n\r\n0123456789"), "HTTP/1.1 431"));
   BOOST_TEST(starts(raw(server, "this is no request\r\n\r\n"), "HTTP/1.1 400"));
   BOOST_TEST(starts(get(server, "/", server.host()), "HTTP/1.1 200"));
 }
@@ -169,8 +155,7 @@ BOOST_AUTO_TEST_CASE(a_page_that_never_stops_talking_is_closed) {
   Client page(server);
   try {
     for (int i = 0; i < 1000; ++i) page.write("x");
-  } catch (const boost::system::system_error&) {
-  }
+  } catch (const boost::system::system_error&) {}
   BOOST_TEST(int(page.wait_for_close()) == int(websocket::close_code::policy_error));
 }
 
@@ -205,9 +190,7 @@ BOOST_AUTO_TEST_CASE(a_port_in_use_and_an_address_that_is_none_are_refused_with_
   ServerSettings settings;
   settings.port = server.port();
   const auto says = [](const char* word) {
-    return [word](const std::runtime_error& error) {
-      return std::string(error.what()).find(word) != std::string::npos;
-    };
+    return [word](const std::runtime_error& error) { return std::string(error.what()).find(word) != std::string::npos; };
   };
   BOOST_CHECK_EXCEPTION(Server{settings}, std::runtime_error, says("cannot be had"));
   settings.address = "everywhere";

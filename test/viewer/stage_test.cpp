@@ -43,8 +43,7 @@ void tick(StagedDevice& device, LiveFeed& feed, std::int64_t index) {
 BOOST_AUTO_TEST_CASE(a_hand_pulled_through_the_wall_is_pushed_back_and_the_tool_stays_in_the_room) {
   const feeler::scenes::Scene scene = feeler::scenes::cavity();
   const feeler::test::CheckedObject object(scene.vertices, scene.triangles);
-  const auto tool =
-      std::visit([](const auto& shape) { return feeler::test::checked_tool(shape); }, scene.tool);
+  const auto tool = std::visit([](const auto& shape) { return feeler::test::checked_tool(shape); }, scene.tool);
   LiveFeed feed;
   StageSwitch stages{std::shared_ptr<Stage>(cavity_stage(1))};
   StagedDevice device(stages, feed);
@@ -59,10 +58,7 @@ BOOST_AUTO_TEST_CASE(a_hand_pulled_through_the_wall_is_pushed_back_and_the_tool_
   }
   BOOST_TEST(snapshot.haptic.position[2] > snapshot.graphic.position[2] + 1e-3);
   BOOST_TEST(snapshot.wrench.force[2] < -1.0);
-  BOOST_TEST(!stages.current()
-                  .watch()
-                  .recognise(feeler::from_device<feeler::Pose<double>>(snapshot.graphic))
-                  .empty());
+  BOOST_TEST(!stages.current().watch().recognise(feeler::from_device<feeler::Pose<double>>(snapshot.graphic)).empty());
 }
 
 #if FEELER_TEST_COUNTS_ALLOCATIONS
@@ -80,8 +76,7 @@ BOOST_AUTO_TEST_CASE(a_tick_with_hand_renderer_and_hand_off_allocates_nothing) {
 }
 #endif
 
-BOOST_AUTO_TEST_CASE(
-    a_stage_is_taken_between_two_ticks_of_a_loop_that_runs_and_requests_of_the_old_one_are_not_heeded) {
+BOOST_AUTO_TEST_CASE(a_stage_is_taken_between_two_ticks_of_a_loop_that_runs_and_requests_of_the_old_one_are_not_heeded) {
   LiveFeed feed;
   StageSwitch stages{std::shared_ptr<Stage>(cavity_stage(1))};
   StagedDevice device(stages, feed);
@@ -109,8 +104,7 @@ BOOST_AUTO_TEST_CASE(
 }
 
 BOOST_AUTO_TEST_CASE(every_scalar_and_method_renders_and_what_there_is_not_is_refused) {
-  for (const feeler::demo::RenderChoice& choice :
-       {feeler::demo::RenderChoice{"closest", "double"}, {"closest", "float"}, {"paper", "double"}}) {
+  for (const feeler::demo::RenderChoice& choice : {feeler::demo::RenderChoice{"closest", "double"}, {"closest", "float"}, {"paper", "double"}}) {
     LiveFeed feed;
     StageSwitch stages{std::shared_ptr<Stage>(cavity_stage(1, choice))};
     StagedDevice device(stages, feed);
@@ -126,8 +120,7 @@ BOOST_AUTO_TEST_CASE(every_scalar_and_method_renders_and_what_there_is_not_is_re
   feeler::demo::LiveScene spline = feeler::demo::live(feeler::scenes::spline());
   const auto settings = spline.setting.settings();
   BOOST_CHECK_THROW(make_stage({1, spline, settings, {"paper", "double"}, 1e-3}), std::invalid_argument);
-  BOOST_CHECK_THROW(make_stage({1, feeler::demo::live(feeler::scenes::cavity(-1e-3)), settings, {}, 1e-3}),
-                    std::invalid_argument);
+  BOOST_CHECK_THROW(make_stage({1, feeler::demo::live(feeler::scenes::cavity(-1e-3)), settings, {}, 1e-3}), std::invalid_argument);
 }
 
 BOOST_AUTO_TEST_SUITE_END()

@@ -33,7 +33,8 @@ LawFinding check_budget(std::mt19937& bits, LawScene<Tool> scene) {
     ++held;
   } while (!run.tick().converged() && held <= most);
   if (!run.tick().converged())
-    finding.complain("starves", run.ticks(), "not converged %d ticks after the hand stopped, with a budget of %d; %.3g m off it", held, budget, run.offset(run.tick().graphic_pose).linear.norm());
+    finding.complain("starves", run.ticks(), "not converged %d ticks after the hand stopped, with a budget of %d; %.3g m off it", held, budget,
+                     run.offset(run.tick().graphic_pose).linear.norm());
   finding.ticks = run.ticks();
   return finding;
 }

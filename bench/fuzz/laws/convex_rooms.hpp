@@ -19,7 +19,8 @@ inline void put_ball_above(LawScene<Sphere<double>>& scene, double width, double
   const auto floor_at = [room](double x, double y) {
     Wide height = -std::numeric_limits<Wide>::infinity();
     for (const HalfSpace& space : room)
-      if (space.normal.z() > 0.05L) height = std::max(height, (space.offset - space.normal.x() * Wide(x) - space.normal.y() * Wide(y)) / space.normal.z());
+      if (space.normal.z() > 0.05L)
+        height = std::max(height, (space.offset - space.normal.x() * Wide(x) - space.normal.y() * Wide(y)) / space.normal.z());
     return double(height);
   };
   scene.start.translation = {0, 0, floor_at(0, 0) + 0.002};
@@ -52,12 +53,15 @@ inline LawScene<Sphere<double>> ball_in_trough(std::mt19937& bits) {
   const int strips = 1 + below(bits, 3);
   std::vector<Vector> corners;
   for (int i = 0; i <= n; ++i)
-    for (int k = 0; k <= strips; ++k) corners.emplace_back(double(profile[std::size_t(i)].x()), length * (2.0 * k / strips - 1), double(profile[std::size_t(i)].z()));
+    for (int k = 0; k <= strips; ++k)
+      corners.emplace_back(double(profile[std::size_t(i)].x()), length * (2.0 * k / strips - 1), double(profile[std::size_t(i)].z()));
   scene.surface.vertices = corners;
   const WideVector inside(0, 0, 1);
   for (int i = 0; i < n; ++i) {
-    for (int k = 0; k < strips; ++k) scene.surface.quad(bits, i * (strips + 1) + k, (i + 1) * (strips + 1) + k, (i + 1) * (strips + 1) + k + 1, i * (strips + 1) + k + 1);
-    scene.walls.push_back(HalfSpace::through(corners[std::size_t(i * (strips + 1))].cast<Wide>(), corners[std::size_t((i + 1) * (strips + 1))].cast<Wide>(),
+    for (int k = 0; k < strips; ++k)
+      scene.surface.quad(bits, i * (strips + 1) + k, (i + 1) * (strips + 1) + k, (i + 1) * (strips + 1) + k + 1, i * (strips + 1) + k + 1);
+    scene.walls.push_back(HalfSpace::through(corners[std::size_t(i * (strips + 1))].cast<Wide>(),
+                                             corners[std::size_t((i + 1) * (strips + 1))].cast<Wide>(),
                                              corners[std::size_t((i + 1) * (strips + 1) + strips)].cast<Wide>(), inside));
   }
   const double end = radius + 0.004;
@@ -79,7 +83,8 @@ inline LawScene<Sphere<double>> ball_in_bowl(std::mt19937& bits) {
   const double width = 0.02 + 0.02 * fraction(bits), radius = width * (0.05 + 0.15 * fraction(bits));
   LawScene<Sphere<double>> scene{.family = rings == 1 ? "cone" : "bowl", .surface = {}, .tool = Sphere<double>(radius)};
   scene.settings = random_law_settings(bits);
-  const double steepest = rings == 1 ? magnitude(bits, -2.5, 0) : 0.3 + 0.7 * fraction(bits), gentlest = below(bits, 3) == 0 ? 0 : steepest * 0.5 * fraction(bits);
+  const double steepest = rings == 1 ? magnitude(bits, -2.5, 0) : 0.3 + 0.7 * fraction(bits),
+               gentlest = below(bits, 3) == 0 ? 0 : steepest * 0.5 * fraction(bits);
   std::vector<double> slopes;
   for (int k = 0; k < rings; ++k) slopes.push_back(rings == 1 ? steepest : gentlest + (steepest - gentlest) * (k + 0.5 * fraction(bits)) / rings);
   std::vector<double> angles;
@@ -97,10 +102,8 @@ inline LawScene<Sphere<double>> ball_in_bowl(std::mt19937& bits) {
   const auto place = [&](int vertex) { return WideVector(surface.vertices[std::size_t(vertex)].cast<Wide>()); };
   for (int k = 0; k < rings; ++k)
     for (int i = 0; i < n; ++i) {
-      if (k == 0)
-        surface.triangles.emplace_back(0, at(1, i), at(1, i + 1));
-      else
-        surface.quad(bits, at(k, i), at(k + 1, i), at(k + 1, i + 1), at(k, i + 1));
+      if (k == 0) surface.triangles.emplace_back(0, at(1, i), at(1, i + 1));
+      else surface.quad(bits, at(k, i), at(k + 1, i), at(k + 1, i + 1), at(k, i + 1));
       scene.walls.push_back(HalfSpace::through(place(at(k, i)), place(at(k + 1, i)), place(at(k + 1, i + 1)), inside));
     }
   scene.placed = random_placement(bits);
@@ -120,8 +123,8 @@ inline LawScene<Box<double>> box_in_box(std::mt19937& bits) {
     for (const double side : {-1.0, 1.0}) {
       const int u = (axis + 1) % 3, v = (axis + 2) % 3, cells = 1 + below(bits, 4);
       const Vector normal = -side * Vector::Unit(axis);
-      scene.surface.sheet(bits, -room.cwiseProduct(Vector::Ones() - Vector::Unit(axis)) + side * room[axis] * Vector::Unit(axis), 2 * room[u] * Vector::Unit(u),
-                          2 * room[v] * Vector::Unit(v), cells, cells, 0.3);
+      scene.surface.sheet(bits, -room.cwiseProduct(Vector::Ones() - Vector::Unit(axis)) + side * room[axis] * Vector::Unit(axis),
+                          2 * room[u] * Vector::Unit(u), 2 * room[v] * Vector::Unit(v), cells, cells, 0.3);
       scene.walls.push_back({normal.cast<Wide>(), -Wide(room[axis])});
     }
   scene.placed = random_placement(bits);

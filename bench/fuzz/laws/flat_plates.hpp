@@ -17,7 +17,8 @@ namespace feeler::laws {
 inline LawScene<Box<double>> box_on_plate(std::mt19937& bits, bool must_be_flat = false) {
   const double size = below(bits, 3) == 0 ? magnitude(bits, 0.5, 2) : magnitude(bits, -2.3, 0.5);
   const double longest = std::min(size / 10, 0.02);
-  const Vector half(longest * (0.3 + 0.7 * fraction(bits)) / 2, longest * (0.3 + 0.7 * fraction(bits)) / 2, longest * (0.3 + 0.7 * fraction(bits)) / 2);
+  const Vector half(longest * (0.3 + 0.7 * fraction(bits)) / 2, longest * (0.3 + 0.7 * fraction(bits)) / 2,
+                    longest * (0.3 + 0.7 * fraction(bits)) / 2);
   LawScene<Box<double>> scene{.family = "plate", .surface = {}, .tool = Box<double>(half)};
   scene.settings = random_law_settings(bits);
   const int cells = int(std::sqrt(magnitude(bits, 0, 3)));

@@ -19,7 +19,9 @@ class Separation {
   Separation(const LawScene<Tool>& scene, double reach) : reach_(reach), object_(points_of(scene.surface), rows_of(scene.surface)) {
     for (const auto& piece : test::checked_pieces(scene.tool)) pieces_.push_back(piece.swept_by(test::WideReal(reach)));
   }
-  double at(const Pose<double>& pose_in_scene) const { return reach_ - double(test::deepest_penetration(object_, pieces_, test::checked_pose(pose_in_scene)).depth); }
+  double at(const Pose<double>& pose_in_scene) const {
+    return reach_ - double(test::deepest_penetration(object_, pieces_, test::checked_pose(pose_in_scene)).depth);
+  }
 
  private:
   double reach_;

@@ -28,10 +28,12 @@ void check_sums(const LawRun<Tool>& run, LawFinding& finding) {
   const double off = (force - tick.wrench.force).norm();
   finding.worst = std::max(finding.worst, off / std::max(tick.wrench.force.norm(), 1e-4));
   if (!(off <= 0.01 * tick.wrench.force.norm() + 1e-6))
-    finding.complain("force", run.ticks(), "the contacts sum to %.6g N, the wrench is %.6g N, %.3g N apart", force.norm(), tick.wrench.force.norm(), off);
+    finding.complain("force", run.ticks(), "the contacts sum to %.6g N, the wrench is %.6g N, %.3g N apart", force.norm(), tick.wrench.force.norm(),
+                     off);
   const double twist = (torque - tick.wrench.torque).norm();
   if (has_turns<Tool> && !(twist <= 0.01 * moments + 1e-6 * run.radius()))
-    finding.complain("torque", run.ticks(), "the contacts sum to %.6g N m, the wrench is %.6g N m, %.3g N m apart", torque.norm(), tick.wrench.torque.norm(), twist);
+    finding.complain("torque", run.ticks(), "the contacts sum to %.6g N m, the wrench is %.6g N m, %.3g N m apart", torque.norm(),
+                     tick.wrench.torque.norm(), twist);
 }
 
 /// Follows a hand and looks at the sums; then leads it twice round an ellipse, pressed into the room, and counts the work of the second lap.
@@ -77,7 +79,9 @@ LawFinding check_forces(std::mt19937& bits, const LawScene<Tool>& scene) {
     last_hand = hand.translation, last_error = error;
     largest = std::max(largest, run.tick().wrench.force.norm());
   }
-  if (!(work <= scene.settings.margin * largest)) finding.complain("energy", run.ticks(), "the hand gains %.3g J a lap, a margin's way at the largest force is %.3g J", work, scene.settings.margin * largest);
+  if (!(work <= scene.settings.margin * largest))
+    finding.complain("energy", run.ticks(), "the hand gains %.3g J a lap, a margin's way at the largest force is %.3g J", work,
+                     scene.settings.margin * largest);
   finding.ticks = run.ticks();
   return finding;
 }

@@ -31,8 +31,13 @@ LawFinding check_free_axes(std::mt19937& bits, const LawScene<Tool>& scene) {
       const double off = axis.is_turn ? radius * std::abs(offset.angular.dot(direction)) : std::abs(offset.linear.dot(direction));
       const double pull = std::abs((axis.is_turn ? tick.wrench.torque : tick.wrench.force).dot(direction));
       finding.worst = std::max(finding.worst, off);
-      if (!(off <= allowed)) finding.complain(off < 1e-7 ? "a little off" : axis.is_turn ? "turned" : "driven", run.ticks(), "off the hand by %.3g m along or about a free axis, %.3g %s", off, pull, axis.is_turn ? "N m" : "N");
-      if (!(pull <= (axis.is_turn ? torsion / radius : stiffness) * allowed)) finding.complain("pulled", run.ticks(), "%.3g %s along or about a free axis", pull, axis.is_turn ? "N m" : "N");
+      if (!(off <= allowed))
+        finding.complain(off < 1e-7     ? "a little off"
+                         : axis.is_turn ? "turned"
+                                        : "driven",
+                         run.ticks(), "off the hand by %.3g m along or about a free axis, %.3g %s", off, pull, axis.is_turn ? "N m" : "N");
+      if (!(pull <= (axis.is_turn ? torsion / radius : stiffness) * allowed))
+        finding.complain("pulled", run.ticks(), "%.3g %s along or about a free axis", pull, axis.is_turn ? "N m" : "N");
     }
     if (scene.family == "plate" && scene.is_turned_as_hand && !(radius * offset.angular.norm() <= allowed))
       finding.complain("tilted", run.ticks(), "%.3g rad off a flat plate", offset.angular.norm());
@@ -44,7 +49,9 @@ LawFinding check_free_axes(std::mt19937& bits, const LawScene<Tool>& scene) {
     check(run.hold());
     is_at_rest = is_at_rest || run.tick().converged();
   }
-  if (!is_at_rest) finding.complain("never at rest", run.ticks(), "no tick converged while the hand was held, the tool %.3g m and %.3g rad off it", run.offset(run.tick().graphic_pose).linear.norm(), run.offset(run.tick().graphic_pose).angular.norm());
+  if (!is_at_rest)
+    finding.complain("never at rest", run.ticks(), "no tick converged while the hand was held, the tool %.3g m and %.3g rad off it",
+                     run.offset(run.tick().graphic_pose).linear.norm(), run.offset(run.tick().graphic_pose).angular.norm());
   finding.ticks = run.ticks();
   return finding;
 }

@@ -37,13 +37,16 @@ LawFinding check_held_hand(std::mt19937& bits, const LawScene<Tool>& scene) {
     if (converged_at < 0 && run.tick().converged()) converged_at = i;
     if (converged_at > 0 && i == converged_at + 5) settled = run.tick().graphic_pose;
     if (converged_at > 0 && i > converged_at + 5) stirred = std::max(stirred, run.distance(settled, run.tick().graphic_pose));
-    if (!(rises <= worth)) finding.complain("rises", run.ticks(), "the energy of a held hand rose by %.3g m2 in %d ticks, the margin is worth %.3g", rises, i, worth);
+    if (!(rises <= worth))
+      finding.complain("rises", run.ticks(), "the energy of a held hand rose by %.3g m2 in %d ticks, the margin is worth %.3g", rises, i, worth);
     finding.worst = std::max(finding.worst, rises / worth);
   }
   if (converged_at < 0 || converged_at > 20 + way)
-    finding.complain("late", run.ticks(), "not converged %d ticks after the hand stopped (%d are its way); %.3g m off it", converged_at < 0 ? held : converged_at, way, run.offset(run.tick().graphic_pose).linear.norm());
+    finding.complain("late", run.ticks(), "not converged %d ticks after the hand stopped (%d are its way); %.3g m off it",
+                     converged_at < 0 ? held : converged_at, way, run.offset(run.tick().graphic_pose).linear.norm());
   else if (moved_at > converged_at + 5)
-    finding.complain(stirred < 1e-9 ? "not to the bit" : "stirs", run.ticks(), "converged in tick %d of the hold, and moved in tick %d, by %.3g m", converged_at, moved_at, stirred);
+    finding.complain(stirred < 1e-9 ? "not to the bit" : "stirs", run.ticks(), "converged in tick %d of the hold, and moved in tick %d, by %.3g m",
+                     converged_at, moved_at, stirred);
   finding.ticks = run.ticks();
   return finding;
 }

@@ -24,12 +24,8 @@ class LawHand {
   Pose<double> next() {
     if (steps_ > 0) return step();
     switch (kind_) {
-      case Kind::slow:
-        go_to(scene_.random_hand(bits_), slow);
-        return step();
-      case Kind::quick:
-        go_to(scene_.random_hand(bits_), quick);
-        return step();
+      case Kind::slow: go_to(scene_.random_hand(bits_), slow); return step();
+      case Kind::quick: go_to(scene_.random_hand(bits_), quick); return step();
       case Kind::still:
         if (++waited_ % 50 == 0) go_to(scene_.random_hand(bits_), quick);
         return pose_;
@@ -54,7 +50,9 @@ class LawHand {
   Pose<double> step() {
     --steps_;
     const double share = double(all_steps_ - steps_) / all_steps_;
-    pose_ = steps_ == 0 ? goal_ : Pose<double>{from_.translation + share * (goal_.translation - from_.translation), from_.rotation.slerp(share, goal_.rotation)};
+    pose_ = steps_ == 0
+                ? goal_
+                : Pose<double>{from_.translation + share * (goal_.translation - from_.translation), from_.rotation.slerp(share, goal_.rotation)};
     return pose_;
   }
 

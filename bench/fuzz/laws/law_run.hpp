@@ -42,7 +42,11 @@ struct LawFinding {
 template <class Tool>
 class LawRun {
  public:
-  explicit LawRun(const LawScene<Tool>& scene) : scene_(scene), radius_(has_turns<Tool> ? radius_of(scene.tool) : 0), mesh_(placed_vertices(scene), rows_of(scene.surface)), renderer_(mesh_, scene.tool, scene.settings) {
+  explicit LawRun(const LawScene<Tool>& scene)
+      : scene_(scene),
+        radius_(has_turns<Tool> ? radius_of(scene.tool) : 0),
+        mesh_(placed_vertices(scene), rows_of(scene.surface)),
+        renderer_(mesh_, scene.tool, scene.settings) {
     is_started_ = renderer_.reset(compose(scene.placed, scene.start)) == Status::converged;
     hand_ = compose(scene.placed, scene.start);
   }

@@ -97,7 +97,9 @@ double clearance_in(const std::vector<HalfSpace>& walls, const Tool& tool, const
 }
 
 /// Pose of a frame that is given in another one.
-inline Pose<double> compose(const Pose<double>& outer, const Pose<double>& inner) { return {outer * inner.translation, (outer.rotation * inner.rotation).normalized()}; }
+inline Pose<double> compose(const Pose<double>& outer, const Pose<double>& inner) {
+  return {outer * inner.translation, (outer.rotation * inner.rotation).normalized()};
+}
 inline Pose<double> relative_to(const Pose<double>& outer, const Pose<double>& pose) {
   const Eigen::Quaterniond back = outer.rotation.conjugate();
   return {back * Vector(pose.translation - outer.translation), (back * pose.rotation).normalized()};

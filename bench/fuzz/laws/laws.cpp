@@ -40,7 +40,8 @@ void try_scene(const Law& law, const char* name, unsigned seed, std::mt19937& bi
   if (finding.kind.empty()) return;
   ++tally.broken;
   ++tally.kinds[scene.family + " " + finding.kind];
-  std::printf("%s, %s (play %.2g m, margin %.2g m): %s, %s\n  again: feeler-fuzz --law %s --seed %u --trials 1\n", name, scene.family.c_str(), scene.play, scene.settings.margin, finding.kind.c_str(), finding.problem.c_str(), name, seed);
+  std::printf("%s, %s (play %.2g m, margin %.2g m): %s, %s\n  again: feeler-fuzz --law %s --seed %u --trials 1\n", name, scene.family.c_str(),
+              scene.play, scene.settings.margin, finding.kind.c_str(), finding.problem.c_str(), name, seed);
 }
 
 /// Round fits are apart: what touches all around in one is at rest, but not to the last bit, which some laws ask for.
@@ -58,27 +59,19 @@ int run_law(const std::string& wanted, const char* name, const char* figure, uns
     for (bool is_made = false; !is_made;) {
       is_made = true;
       const int family = below(bits, 9);
-      if (family < 2 && (families & fits) != 0)
-        in(peg_in_hole(bits, "peg", random_section(bits)));
-      else if (family == 2 && (families & fits) != 0)
-        in(angle_in_hole(bits));
-      else if (family == 3 && (families & fits) != 0)
-        in(boxes_in_slot(bits));
-      else if (family == 4 && (families & (plates | flat_plates)) != 0)
-        in(box_on_plate(bits, (families & plates) == 0));
-      else if (family == 5 && (families & rooms) != 0)
-        in(ball_in_trough(bits));
-      else if (family == 6 && (families & rooms) != 0)
-        in(ball_in_bowl(bits));
-      else if (family == 7 && (families & rooms) != 0)
-        in(box_in_box(bits));
-      else if (family == 8 && (families & round_fits) != 0)
-        in(peg_in_hole(bits, "round peg", round_section(bits)));
-      else
-        is_made = false;
+      if (family < 2 && (families & fits) != 0) in(peg_in_hole(bits, "peg", random_section(bits)));
+      else if (family == 2 && (families & fits) != 0) in(angle_in_hole(bits));
+      else if (family == 3 && (families & fits) != 0) in(boxes_in_slot(bits));
+      else if (family == 4 && (families & (plates | flat_plates)) != 0) in(box_on_plate(bits, (families & plates) == 0));
+      else if (family == 5 && (families & rooms) != 0) in(ball_in_trough(bits));
+      else if (family == 6 && (families & rooms) != 0) in(ball_in_bowl(bits));
+      else if (family == 7 && (families & rooms) != 0) in(box_in_box(bits));
+      else if (family == 8 && (families & round_fits) != 0) in(peg_in_hole(bits, "round peg", round_section(bits)));
+      else is_made = false;
     }
   }
-  std::printf("%-12s %6d runs %9ld ticks   refused %d   broken %d   worst %.2e %s", name, tally.runs, tally.ticks, tally.refused, tally.broken, tally.worst, figure);
+  std::printf("%-12s %6d runs %9ld ticks   refused %d   broken %d   worst %.2e %s", name, tally.runs, tally.ticks, tally.refused, tally.broken,
+              tally.worst, figure);
   for (const auto& [kind, count] : tally.kinds) std::printf("%s%s %d", kind == tally.kinds.begin()->first ? "   (" : ", ", kind.c_str(), count);
   std::printf("%s\n", tally.kinds.empty() ? "" : ")");
   std::fflush(stdout);
@@ -89,14 +82,22 @@ int run_law(const std::string& wanted, const char* name, const char* figure, uns
 
 int run_laws(const std::string& law, unsigned first, int trials) {
   int broken = 0;
-  const auto run = [&](const char* name, const char* figure, unsigned families, const auto& check) { broken += run_law(law, name, figure, families, first, trials, check); };
-  run("free-axes", "m along a free axis", fits | round_fits | plates, [](std::mt19937& bits, const auto& scene) { return check_free_axes(bits, scene); });
-  run("held-hand", "times the worth of the margin", fits | plates | rooms, [](std::mt19937& bits, const auto& scene) { return check_held_hand(bits, scene); });
-  run("convex-room", "m off the projection", flat_plates | rooms, [](std::mt19937& bits, const auto& scene) { return check_convex_room(bits, scene); });
+  const auto run = [&](const char* name, const char* figure, unsigned families, const auto& check) {
+    broken += run_law(law, name, figure, families, first, trials, check);
+  };
+  run("free-axes", "m along a free axis", fits | round_fits | plates,
+      [](std::mt19937& bits, const auto& scene) { return check_free_axes(bits, scene); });
+  run("held-hand", "times the worth of the margin", fits | plates | rooms,
+      [](std::mt19937& bits, const auto& scene) { return check_held_hand(bits, scene); });
+  run("convex-room", "m off the projection", flat_plates | rooms,
+      [](std::mt19937& bits, const auto& scene) { return check_convex_room(bits, scene); });
   run("no-history", "m apart", fits | plates | rooms, [](std::mt19937& bits, const auto& scene) { return check_no_history(bits, scene); });
-  run("forces", "of the force amiss", fits | round_fits | plates | rooms, [](std::mt19937& bits, const auto& scene) { return check_forces(bits, scene); });
-  run("budget", "times the budget", fits | round_fits | plates | rooms, [](std::mt19937& bits, const auto& scene) { return check_budget(bits, scene); });
-  run("status", "m off the nearest", fits | round_fits | plates | rooms, [](std::mt19937& bits, const auto& scene) { return check_status(bits, scene); });
+  run("forces", "of the force amiss", fits | round_fits | plates | rooms,
+      [](std::mt19937& bits, const auto& scene) { return check_forces(bits, scene); });
+  run("budget", "times the budget", fits | round_fits | plates | rooms,
+      [](std::mt19937& bits, const auto& scene) { return check_budget(bits, scene); });
+  run("status", "m off the nearest", fits | round_fits | plates | rooms,
+      [](std::mt19937& bits, const auto& scene) { return check_status(bits, scene); });
   return broken;
 }
 

@@ -75,8 +75,14 @@ LawFinding check_no_history(std::mt19937& bits, const LawScene<Tool>& scene) {
     finding.worst = std::max(finding.worst, apart);
     if (apart <= allowed) return;
     const bool is_proved = !is_tight && has_no_fold(scene, straight, straight.graphic_in_scene(), pose);
-    finding.complain((std::string(how) + (is_tight ? ", tight" : is_proved ? "" : ", maybe a fold")).c_str(), run.ticks(), "%.3g m apart; %s", apart,
-                     is_tight ? "less than two margins of play" : is_proved ? "the way from the worse to the better goes down and keeps its distance: no fold" : "no proof that it is no fold");
+    finding.complain((std::string(how) + (is_tight    ? ", tight"
+                                          : is_proved ? ""
+                                                      : ", maybe a fold"))
+                         .c_str(),
+                     run.ticks(), "%.3g m apart; %s", apart,
+                     is_tight    ? "less than two margins of play"
+                     : is_proved ? "the way from the worse to the better goes down and keeps its distance: no fold"
+                                 : "no proof that it is no fold");
   };
   const bool is_at_rest = lead(straight, {goal}, step);
   finding.ticks += straight.ticks();

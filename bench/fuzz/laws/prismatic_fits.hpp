@@ -16,7 +16,8 @@ inline std::function<Pose<double>(std::mt19937&)> hand_in_a_fit(const Vector& al
   return [along, turns](std::mt19937& bits) {
     Pose<double> pose;
     const double angle = 2 * std::numbers::pi * fraction(bits);
-    const Vector aside = below(bits, 4) == 0 ? Vector(Vector::Zero()) : Vector(magnitude(bits, -7, -3.3) * Vector(std::cos(angle), std::sin(angle), 0));
+    const Vector aside =
+        below(bits, 4) == 0 ? Vector(Vector::Zero()) : Vector(magnitude(bits, -7, -3.3) * Vector(std::cos(angle), std::sin(angle), 0));
     pose.translation = aside + (below(bits, 3) == 0 ? Vector(Vector::Zero()) : Vector(along.cwiseProduct(random_vector(bits))));
     if (turns && below(bits, 3) > 0) pose.rotation = exp_rotation<double>(magnitude(bits, -5, -1.7) * random_direction(bits));
     return pose;
@@ -75,16 +76,20 @@ inline LawScene<CompoundTool<ConvexPolytope<double>>> angle_in_hole(std::mt19937
 /// Two boxes side by side between two flat walls: both directions along the walls are free, and the turn in their plane.
 inline LawScene<CompoundTool<ConvexPolytope<double>>> boxes_in_slot(std::mt19937& bits) {
   const double half = 0.001 + 0.004 * fraction(bits), a = 0.002 + 0.006 * fraction(bits), b = 0.002 + 0.006 * fraction(bits);
-  const auto box = [&](double x0, double x1, double y0, double y1) { return ConvexPolytope<double>::hull_of(prism({{x0, y0}, {x1, y0}, {x1, y1}, {x0, y1}}, half)); };
+  const auto box = [&](double x0, double x1, double y0, double y1) {
+    return ConvexPolytope<double>::hull_of(prism({{x0, y0}, {x1, y0}, {x1, y1}, {x0, y1}}, half));
+  };
   std::vector<ConvexPolytope<double>> boxes;
   boxes.push_back(box(-a, 0.2 * a, -b, b));
   boxes.push_back(box(0, 1.5 * a, -0.3 * b, 1.2 * b));
-  LawScene<CompoundTool<ConvexPolytope<double>>> scene{.family = "slot", .surface = {}, .tool = CompoundTool<ConvexPolytope<double>>(std::move(boxes))};
+  LawScene<CompoundTool<ConvexPolytope<double>>> scene{
+      .family = "slot", .surface = {}, .tool = CompoundTool<ConvexPolytope<double>>(std::move(boxes))};
   scene.settings = random_law_settings(bits);
   scene.play = random_play(bits, scene.settings.margin);
   const double size = 0.06;
   const int cells = 1 + below(bits, 6);
-  for (const double side : {-1.0, 1.0}) scene.surface.sheet(bits, {-size / 2, -size / 2, side * (half + scene.play)}, {size, 0, 0}, {0, size, 0}, cells, cells, 0.3);
+  for (const double side : {-1.0, 1.0})
+    scene.surface.sheet(bits, {-size / 2, -size / 2, side * (half + scene.play)}, {size, 0, 0}, {0, size, 0}, cells, cells, 0.3);
   scene.placed = random_placement(bits);
   const auto hand = hand_in_a_fit({way_along, way_along, 0}, true);
   scene.random_hand = [hand](std::mt19937& random) {

@@ -23,7 +23,8 @@ void search_better(std::mt19937& bits, const LawScene<Tool>& scene, const LawRun
     const double gain = energy - run.energy(near);
     if (gain <= worth || clearance_in(scene.walls, scene.tool, relative_to(scene.placed, near)) < 0.999 * scene.settings.margin) continue;
     finding.worst = std::max(finding.worst, gain / std::sqrt(2 * energy));
-    return finding.complain("not the nearest", run.ticks(), "a free pose %.3g m and %.3g rad off has %.3g m2 less, the margin is worth %.3g", step.linear.norm(), step.angular.norm(), gain, worth);
+    return finding.complain("not the nearest", run.ticks(), "a free pose %.3g m and %.3g rad off has %.3g m2 less, the margin is worth %.3g",
+                            step.linear.norm(), step.angular.norm(), gain, worth);
   }
 }
 

@@ -31,10 +31,8 @@ struct Surface {
   }
   /// Four corners in order round a flat quadrilateral, cut along one of its diagonals.
   void quad(std::mt19937& bits, int a, int b, int c, int d) {
-    if (below(bits, 2) == 0)
-      triangles.insert(triangles.end(), {{a, b, c}, {a, c, d}});
-    else
-      triangles.insert(triangles.end(), {{b, c, d}, {b, d, a}});
+    if (below(bits, 2) == 0) triangles.insert(triangles.end(), {{a, b, c}, {a, c, d}});
+    else triangles.insert(triangles.end(), {{b, c, d}, {b, d, a}});
   }
   /// A parallelogram of columns × rows cells, whose inner vertices are moved within its plane by a share of a cell.
   void sheet(std::mt19937& bits, const Vector& corner, const Vector& along, const Vector& across, int columns, int rows, double jitter = 0) {
@@ -68,7 +66,8 @@ inline std::vector<Eigen::Vector2d> divided(const std::vector<Eigen::Vector2d>& 
 
 /// A closed ring: a plate from −height/2 to height/2 with a hole of one section and a rim of another, corner by corner.
 /// @param strips  of the wall of the hole along its axis
-inline Surface ring(std::mt19937& bits, const std::vector<Eigen::Vector2d>& hole, const std::vector<Eigen::Vector2d>& rim, double height, int strips) {
+inline Surface ring(std::mt19937& bits, const std::vector<Eigen::Vector2d>& hole, const std::vector<Eigen::Vector2d>& rim, double height,
+                    int strips) {
   Surface surface;
   const int n = int(hole.size());
   const auto layer = [&](const std::vector<Eigen::Vector2d>& section, double z) {

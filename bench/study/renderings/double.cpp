@@ -1,5 +1,5 @@
-#include "study/player_of.hpp"
 #include "scenes/renderers.hpp"
+#include "study/player_of.hpp"
 
 namespace feeler::study {
 namespace {

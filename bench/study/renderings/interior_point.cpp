@@ -1,5 +1,5 @@
-#include "study/player_of.hpp"
 #include "feeler/qp/reference/interior_point.hpp"
+#include "study/player_of.hpp"
 
 namespace feeler::study {
 namespace {

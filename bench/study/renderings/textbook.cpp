@@ -1,5 +1,5 @@
-#include "study/player_of.hpp"
 #include "feeler/qp/reference/textbook_active_set.hpp"
+#include "study/player_of.hpp"
 
 namespace feeler::study {
 namespace {

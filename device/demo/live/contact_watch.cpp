@@ -34,8 +34,7 @@ class ContactWatch::PieceOf final : public Piece {
     for (const PrincipalContact<double>& contact : formation) {
       const auto& p = contact.point_world;
       const auto& n = contact.normal_world;
-      contacts.push_back(
-          {number_of(contact.type), {p.x(), p.y(), p.z()}, {n.x(), n.y(), n.z()}, contact.gap, 0});
+      contacts.push_back({number_of(contact.type), {p.x(), p.y(), p.z()}, {n.x(), n.y(), n.z()}, contact.gap, 0});
     }
     return tracker_.observe(formation) != nullptr;
   }
@@ -45,12 +44,10 @@ class ContactWatch::PieceOf final : public Piece {
   FormationTracker<double> tracker_;
 };
 
-ContactWatch::ContactWatch(std::shared_ptr<const TriangleMesh<double>> object, const LiveTool& tool,
-                           double margin)
+ContactWatch::ContactWatch(std::shared_ptr<const TriangleMesh<double>> object, const LiveTool& tool, double margin)
     : object_(std::move(object)), features_(std::make_unique<Features>(*object_)) {
-  for_each_piece(tool, [&]<class Tool>(const Tool& piece) {
-    pieces_.push_back(std::make_unique<PieceOf<Tool>>(*object_, *features_, piece, 2 * margin));
-  });
+  for_each_piece(tool,
+                 [&]<class Tool>(const Tool& piece) { pieces_.push_back(std::make_unique<PieceOf<Tool>>(*object_, *features_, piece, 2 * margin)); });
 }
 
 ContactWatch::~ContactWatch() = default;
@@ -58,8 +55,7 @@ ContactWatch::~ContactWatch() = default;
 const std::vector<viewer::ShownContact>& ContactWatch::recognise(const Pose<double>& world_from_tool) {
   contacts_.clear();
   has_switched_ = false;
-  for (const auto& piece : pieces_)
-    has_switched_ = piece->recognise(world_from_tool, contacts_) || has_switched_;
+  for (const auto& piece : pieces_) has_switched_ = piece->recognise(world_from_tool, contacts_) || has_switched_;
   return contacts_;
 }
 

@@ -8,8 +8,7 @@ namespace {
 template <class Tool>
 std::unique_ptr<Stage> make(StageParts parts, const Tool& tool) {
   const auto narrow = tool.template cast<float>();
-  return std::make_unique<RenderedStage<HapticRenderer<std::remove_cv_t<decltype(narrow)>>>>(std::move(parts),
-                                                                                             narrow);
+  return std::make_unique<RenderedStage<HapticRenderer<std::remove_cv_t<decltype(narrow)>>>>(std::move(parts), narrow);
 }
 
 }  // namespace

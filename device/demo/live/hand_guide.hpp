@@ -17,20 +17,13 @@ class HandGuide {
  public:
   static constexpr double fastest = 0.3;       ///< [m/s]
   static constexpr double fastest_turn = 4.0;  ///< [rad/s]
-  static constexpr double smoothing =
-      0.02;                                ///< time constant with which the steps of a mouse are rounded [s]
+  static constexpr double smoothing = 0.02;                                ///< time constant with which the steps of a mouse are rounded [s]
   static constexpr double blending = 1.0;  ///< from where the hand is into the scene's motion [s]
 
   /// @param reach   how far from the start the hand may be asked to go [m]
   /// @param period  of a tick [s]
   HandGuide(const Pose<double>& start, scenes::Motion motion, double reach, double period)
-      : start_(start),
-        motion_(std::move(motion)),
-        reach_(reach),
-        period_(period),
-        before_(start),
-        pose_(start),
-        wanted_(start) {}
+      : start_(start), motion_(std::move(motion)), reach_(reach), period_(period), before_(start), pose_(start), wanted_(start) {}
 
   void ask(const viewer::HandRequest& request) noexcept {
     if (request.mode == viewer::HandMode::motion && mode_ != request.mode) {
@@ -38,8 +31,7 @@ class HandGuide {
       motion_time_ = 0;
     }
     mode_ = request.mode;
-    wanted_ =
-        mode_ == viewer::HandMode::person ? within_reach(from_device<Pose<double>>(request.pose)) : pose_;
+    wanted_ = mode_ == viewer::HandMode::person ? within_reach(from_device<Pose<double>>(request.pose)) : pose_;
   }
 
   /// One tick on.
@@ -73,17 +65,13 @@ class HandGuide {
     const double s = std::min(motion_time_ / blending, 1.0);
     const double share = s * s * (3.0 - 2.0 * s);
     const Pose<double> there = motion_(motion_time_);
-    return {began_.translation + share * (there.translation - began_.translation),
-            began_.rotation.slerp(share, there.rotation)};
+    return {began_.translation + share * (there.translation - began_.translation), began_.rotation.slerp(share, there.rotation)};
   }
 
   Pose<double> limited(const Twist<double>& way) const noexcept {
     const double share = period_ / smoothing;
-    const auto factor = [&](double length, double speed) {
-      return length > 0 ? std::min(share, speed * period_ / length) : 0.0;
-    };
-    return moved(pose_, {way.linear * factor(way.linear.norm(), fastest),
-                         way.angular * factor(way.angular.norm(), fastest_turn)});
+    const auto factor = [&](double length, double speed) { return length > 0 ? std::min(share, speed * period_ / length) : 0.0; };
+    return moved(pose_, {way.linear * factor(way.linear.norm(), fastest), way.angular * factor(way.angular.norm(), fastest_turn)});
   }
 
   Pose<double> start_;

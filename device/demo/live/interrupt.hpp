@@ -8,9 +8,7 @@ namespace feeler::demo {
 /// While one lives, Ctrl-C and a request to terminate are noted instead of ending the program at once.
 class Interrupt {
  public:
-  Interrupt() : interrupt_(std::signal(SIGINT, note)), termination_(std::signal(SIGTERM, note)) {
-    noted_ = 0;
-  }
+  Interrupt() : interrupt_(std::signal(SIGINT, note)), termination_(std::signal(SIGTERM, note)) { noted_ = 0; }
   ~Interrupt() {
     std::signal(SIGINT, interrupt_);
     std::signal(SIGTERM, termination_);

@@ -26,9 +26,7 @@ namespace {
 
 using Text = std::shared_ptr<const std::string>;
 
-Text shared_text(std::string text) {
-  return std::make_shared<const std::string>(std::move(text));
-}
+Text shared_text(std::string text) { return std::make_shared<const std::string>(std::move(text)); }
 
 /// What pages ask to be built, from the server's thread to this one. The latest wish counts.
 class Wishes {
@@ -60,8 +58,7 @@ struct Shown {
 /// Makes stages from wishes.
 class StageBuilder {
  public:
-  StageBuilder(const std::vector<GalleryEntry>& gallery, double rate)
-      : gallery_(gallery), period_(1 / rate) {}
+  StageBuilder(const std::vector<GalleryEntry>& gallery, double rate) : gallery_(gallery), period_(1 / rate) {}
 
   /// @throws BadInput or std::invalid_argument with a sentence for the page
   Shown build(const viewer::SceneRequest& wish) {
@@ -74,15 +71,12 @@ class StageBuilder {
       settings.stiffness = Stiffness<double>::uniform(*wish.stiffness, *wish.stiffness * length * length);
     }
     if (wish.margin) settings.margin = *wish.margin;
-    const RenderChoice choice{wish.method.empty() ? "closest" : wish.method,
-                              wish.scalar.empty() ? "double" : wish.scalar};
+    const RenderChoice choice{wish.method.empty() ? "closest" : wish.method, wish.scalar.empty() ? "double" : wish.scalar};
     Shown shown;
     shown.stage = make_stage({++number_, std::move(scene), settings, choice, period_});
-    const std::string variant = wish.clearance         ? ""
-                                : wish.variant.empty() ? entry->variants.front().label
-                                                       : wish.variant;
-    shown.text = shared_text(stage_text(number_, shown.stage->scene(), {settings, choice},
-                                        {entry->id, entry->title, entry->hint, variant, wish.clearance}));
+    const std::string variant = wish.clearance ? "" : wish.variant.empty() ? entry->variants.front().label : wish.variant;
+    shown.text =
+        shared_text(stage_text(number_, shown.stage->scene(), {settings, choice}, {entry->id, entry->title, entry->hint, variant, wish.clearance}));
     const scenes::Setting& setting = shown.stage->scene().setting;
     shown.mesh = shared_text(viewer::encoded_mesh(number_, setting.vertices, setting.triangles));
     return shown;
@@ -99,11 +93,7 @@ class StageBuilder {
 class Watcher {
  public:
   Watcher(viewer::LiveFeed& feed, Wishes& wishes, Text hello, Shown first)
-      : feed_(feed),
-        wishes_(wishes),
-        hello_(std::move(hello)),
-        shown_(std::move(first)),
-        page_(shared_text(std::string(viewer::page_html()))) {}
+      : feed_(feed), wishes_(wishes), hello_(std::move(hello)), shown_(std::move(first)), page_(shared_text(std::string(viewer::page_html()))) {}
 
   viewer::ServerSettings settings() {
     viewer::ServerSettings settings;
@@ -158,8 +148,7 @@ viewer::SceneRequest first_wish(const Options& options, const std::vector<Galler
   viewer::SceneRequest wish;
   const std::string named = options.scene.value_or(gallery.front().id);
   wish.scene = named == "file" && !options.object ? "mesh" : named;
-  if (options.is_clearance_given && (named == "cavity" || named == "spline" || named == "shaft"))
-    wish.clearance = options.clearance;
+  if (options.is_clearance_given && (named == "cavity" || named == "spline" || named == "shaft")) wish.clearance = options.clearance;
   return wish;
 }
 
@@ -190,9 +179,7 @@ void run_live_view(const Options& options) {
   ServoSettings servo;
   servo.rate = options.rate;
   if (options.view_seconds) servo.tick_limit = std::int64_t(*options.view_seconds * options.rate);
-  ServoLoop loop(servo, device, [&](const ServoTick& tick, const DeviceState& state) {
-    return device.stage().render(tick, state, feed);
-  });
+  ServoLoop loop(servo, device, [&](const ServoTick& tick, const DeviceState& state) { return device.stage().render(tick, state, feed); });
 
   const Interrupt interrupt;
   for (const std::string& refusal : loop.start().refused) std::printf("  note: %s\n", refusal.c_str());

@@ -15,17 +15,9 @@ namespace {
 
 }  // namespace
 
-void run_live_view(const Options&) {
-  refuse_to_view();
-}
-void run_replay_view(const Options&) {
-  refuse_to_view();
-}
-std::optional<std::string> player_recording(const scenes::Scene&, const Recording&) {
-  return {};
-}
-std::string player_page(const std::vector<std::string>&) {
-  refuse_to_view();
-}
+void run_live_view(const Options&) { refuse_to_view(); }
+void run_replay_view(const Options&) { refuse_to_view(); }
+std::optional<std::string> player_recording(const scenes::Scene&, const Recording&) { return {}; }
+std::string player_page(const std::vector<std::string>&) { refuse_to_view(); }
 
 }  // namespace feeler::demo

@@ -21,15 +21,13 @@ class RenderedStage final : public Stage {
   using Tool = typename Renderer::Tool;
   using Scalar = typename Renderer::Scalar;
 
-  RenderedStage(StageParts parts, const Tool& tool)
-      : Stage(std::move(parts)), renderer_(mesh(), tool, cast(settings())), fold_(cast(settings())) {
+  RenderedStage(StageParts parts, const Tool& tool) : Stage(std::move(parts)), renderer_(mesh(), tool, cast(settings())), fold_(cast(settings())) {
     if (renderer_.reset(scene().setting.start.template cast<Scalar>()) == TickStatus::penetrating)
       throw std::invalid_argument("The tool would begin inside the object: give more clearance.");
     fold_.reset(scene().setting.start.template cast<Scalar>(), renderer_.tick().graphic_pose);
   }
 
-  DeviceWrench render(const ServoTick& servo, const DeviceState& state,
-                      viewer::LiveFeed& feed) noexcept override {
+  DeviceWrench render(const ServoTick& servo, const DeviceState& state, viewer::LiveFeed& feed) noexcept override {
     const auto haptic = from_device<Pose<Scalar>>(state.pose);
     const auto before = std::chrono::steady_clock::now();
     const Tick<Scalar>& tick = renderer_.update(haptic);
@@ -52,13 +50,11 @@ class RenderedStage final : public Stage {
                               missed_,
                               tick.contacts.size(),
                               {}};
-    for (int i = 0; i < tick.contacts.size(); ++i)
-      snapshot.contacts[std::size_t(i)] = shown(tick.contacts[i]);
+    for (int i = 0; i < tick.contacts.size(); ++i) snapshot.contacts[std::size_t(i)] = shown(tick.contacts[i]);
     const Twist<Scalar> apart = motion_between(haptic, tick.graphic_pose);
     feed.tell(snapshot, {servo.time, wrench, double(apart.linear.norm()), double(apart.angular.norm()),
-                         1e6 * std::chrono::duration<double>(after - before).count(),
-                         1e-3 * double(servo.late), tick.contacts.size(), tick.iterations,
-                         std::int32_t(servo.missed), tick.status != TickStatus::unconverged, has_folded});
+                         1e6 * std::chrono::duration<double>(after - before).count(), 1e-3 * double(servo.late), tick.contacts.size(),
+                         tick.iterations, std::int32_t(servo.missed), tick.status != TickStatus::unconverged, has_folded});
     return wrench;
   }
 
@@ -74,8 +70,7 @@ class RenderedStage final : public Stage {
 
   static Settings<Scalar> cast(const Settings<double>& settings) {
     Settings<Scalar> result;
-    result.stiffness = {settings.stiffness.translational.cast<Scalar>(),
-                        settings.stiffness.rotational.cast<Scalar>()};
+    result.stiffness = {settings.stiffness.translational.cast<Scalar>(), settings.stiffness.rotational.cast<Scalar>()};
     result.margin = Scalar(settings.margin);
     result.closed_means_solid = settings.closed_means_solid;
     return result;
@@ -84,11 +79,8 @@ class RenderedStage final : public Stage {
   static viewer::ShownContact shown(const ActiveContact<Scalar>& contact) noexcept {
     const auto& p = contact.point_world;
     const auto& n = contact.normal_world;
-    return {0,
-            {double(p.x()), double(p.y()), double(p.z())},
-            {double(n.x()), double(n.y()), double(n.z())},
-            double(contact.gap),
-            double(contact.force)};
+    return {
+        0, {double(p.x()), double(p.y()), double(p.z())}, {double(n.x()), double(n.y()), double(n.z())}, double(contact.gap), double(contact.force)};
   }
 
   std::optional<TriangleMesh<Scalar>> narrowed_;

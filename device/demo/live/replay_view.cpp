@@ -32,8 +32,7 @@ bool is_recording(const std::string& text) {
     const auto found = json.find(key);
     return found != json.end() && ((*found).*is_type)();
   };
-  return has("stage", &nlohmann::json::is_object) && has("mesh", &nlohmann::json::is_string) &&
-         has("frames", &nlohmann::json::is_string);
+  return has("stage", &nlohmann::json::is_object) && has("mesh", &nlohmann::json::is_string) && has("frames", &nlohmann::json::is_string);
 }
 
 }  // namespace
@@ -41,12 +40,9 @@ bool is_recording(const std::string& text) {
 std::string load_player_recording(const std::filesystem::path& file) {
   const std::filesystem::path meant = recording_file(file);
   std::ifstream in(meant, std::ios::binary);
-  if (!in)
-    throw BadInput("The recording " + meant.string() + " cannot be read: give the replay.json of a report.");
+  if (!in) throw BadInput("The recording " + meant.string() + " cannot be read: give the replay.json of a report.");
   const std::string text{std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
-  if (!is_recording(text))
-    throw BadInput("The file " + meant.string() +
-                   " is no recording that the viewer plays: give the replay.json of a report.");
+  if (!is_recording(text)) throw BadInput("The file " + meant.string() + " is no recording that the viewer plays: give the replay.json of a report.");
   return text;
 }
 
@@ -55,17 +51,13 @@ void run_replay_view(const Options& options) {
   for (const std::filesystem::path& file : options.replay) recordings.push_back(load_player_recording(file));
   const auto page = std::make_shared<const std::string>(player_page(recordings));
   viewer::ServerSettings settings;
-  settings.resource = [page](std::string_view path) {
-    return path == "/" ? viewer::Resource{"text/html; charset=utf-8", page} : viewer::Resource{};
-  };
+  settings.resource = [page](std::string_view path) { return path == "/" ? viewer::Resource{"text/html; charset=utf-8", page} : viewer::Resource{}; };
   const std::unique_ptr<viewer::Server> server = serve(options, std::move(settings));
   const Interrupt interrupt;
   server->start();
   announce(*server, "recording");
-  const auto end =
-      std::chrono::steady_clock::now() + std::chrono::duration<double>(options.view_seconds.value_or(1e9));
-  while (!interrupt.has_come() && std::chrono::steady_clock::now() < end)
-    std::this_thread::sleep_for(std::chrono::milliseconds(50));
+  const auto end = std::chrono::steady_clock::now() + std::chrono::duration<double>(options.view_seconds.value_or(1e9));
+  while (!interrupt.has_come() && std::chrono::steady_clock::now() < end) std::this_thread::sleep_for(std::chrono::milliseconds(50));
 }
 
 }  // namespace feeler::demo

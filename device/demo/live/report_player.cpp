@@ -45,8 +45,7 @@ viewer::Snapshot snapshot_of(const TickRecord& tick, std::size_t index) {
   snapshot.haptic = to_device_pose(tick.haptic);
   snapshot.graphic = to_device_pose(tick.graphic);
   snapshot.wrench = to_device_wrench(tick.wrench);
-  snapshot.status =
-      static_cast<std::int32_t>(tick.converged ? TickStatus::converged : TickStatus::unconverged);
+  snapshot.status = static_cast<std::int32_t>(tick.converged ? TickStatus::converged : TickStatus::unconverged);
   snapshot.iterations = tick.iterations;
   snapshot.rows = tick.rows;
   return snapshot;
@@ -89,12 +88,11 @@ std::optional<std::string> player_recording(const scenes::Scene& scene, const Re
   Settings<double> settings = scene.settings();
   settings.stiffness.translational *= recording.stiffness_share;
   settings.stiffness.rotational *= recording.stiffness_share;
-  ContactWatch watch(std::make_shared<const TriangleMesh<double>>(scene.vertices, scene.triangles),
-                     live_scene.tool, settings.margin);
+  ContactWatch watch(std::make_shared<const TriangleMesh<double>>(scene.vertices, scene.triangles), live_scene.tool, settings.margin);
   nlohmann::ordered_json json;
   json["feeler_recording"] = 1;
-  json["stage"] = nlohmann::ordered_json::parse(
-      stage_text(stage_number, live_scene, {settings}, {scene.name, scene.name, scene.description, "", {}}));
+  json["stage"] =
+      nlohmann::ordered_json::parse(stage_text(stage_number, live_scene, {settings}, {scene.name, scene.name, scene.description, "", {}}));
   json["mesh"] = base64(viewer::encoded_mesh(stage_number, scene.vertices, scene.triangles));
   json["frames"] = base64(frames_of(recording.ticks, watch));
   return json.dump();

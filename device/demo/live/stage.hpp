@@ -45,8 +45,7 @@ class Stage {
   void ask(const viewer::HandRequest& request) noexcept { guide_.ask(request); }
 
   /// One tick of the renderer, told to the feed.
-  virtual DeviceWrench render(const ServoTick& tick, const DeviceState& state,
-                              viewer::LiveFeed& feed) noexcept = 0;
+  virtual DeviceWrench render(const ServoTick& tick, const DeviceState& state, viewer::LiveFeed& feed) noexcept = 0;
 
   int number() const noexcept { return parts_.number; }
   const LiveScene& scene() const noexcept { return parts_.scene; }

@@ -11,9 +11,7 @@ namespace {
 
 using nlohmann::ordered_json;
 
-ordered_json list_of(const Vector3<double>& v) {
-  return {v.x(), v.y(), v.z()};
-}
+ordered_json list_of(const Vector3<double>& v) { return {v.x(), v.y(), v.z()}; }
 
 /// Vertices in the tool frame, and faces; of a tool without any, edges as faces of two vertices.
 template <class Tool>
@@ -30,9 +28,7 @@ ordered_json piece_json(const Tool& tool) {
   return {{"vertices", vertices}, {"faces", faces}};
 }
 
-ordered_json choice_json(const char* id, const char* label) {
-  return {{"id", id}, {"label", label}};
-}
+ordered_json choice_json(const char* id, const char* label) { return {{"id", id}, {"label", label}}; }
 
 }  // namespace
 
@@ -41,56 +37,47 @@ std::string hello_text(const std::vector<GalleryEntry>& gallery, double rate) {
   for (const GalleryEntry& entry : gallery) {
     ordered_json variants = ordered_json::array();
     for (const GalleryVariant& variant : entry.variants) variants.push_back(variant.label);
-    entries.push_back({{"id", entry.id},
-                       {"title", entry.title},
-                       {"hint", entry.hint},
-                       {"variants", variants},
-                       {"clearance", bool(entry.with_clearance)}});
+    entries.push_back(
+        {{"id", entry.id}, {"title", entry.title}, {"hint", entry.hint}, {"variants", variants}, {"clearance", bool(entry.with_clearance)}});
   }
   return ordered_json{{"type", "hello"},
                       {"version", FEELER_VERSION},
                       {"wire", viewer::wire_version},
                       {"rate", rate},
                       {"gallery", entries},
-                      {"methods",
-                       {choice_json("closest", "closest features"),
-                        choice_json("paper", "the paper's, unverified")}},
+                      {"methods", {choice_json("closest", "closest features"), choice_json("paper", "the paper's, unverified")}},
                       {"scalars", {choice_json("double", "double"), choice_json("float", "float")}}}
       .dump();
 }
 
-std::string stage_text(int number, const LiveScene& scene, const StageSettings& stage_settings,
-                       const StageOrigin& origin) {
+std::string stage_text(int number, const LiveScene& scene, const StageSettings& stage_settings, const StageOrigin& origin) {
   const scenes::Setting& setting = scene.setting;
   const auto& [settings, choice] = stage_settings;
   ordered_json pieces = ordered_json::array();
   for_each_piece(scene.tool, [&](const auto& piece) { pieces.push_back(piece_json(piece)); });
   const auto& q = setting.start.rotation;
-  return ordered_json{
-      {"type", "stage"},
-      {"stage", number},
-      {"scene", origin.scene},
-      {"variant", origin.variant},
-      {"title", origin.title},
-      {"hint", origin.hint},
-      {"description", setting.description},
-      {"triangles", setting.triangles.rows()},
-      {"clearance", origin.clearance ? ordered_json(*origin.clearance) : ordered_json(nullptr)},
-      {"stiffness", settings.stiffness.translational.x()},
-      {"rotational_stiffness", settings.stiffness.rotational.x()},
-      {"margin", settings.margin},
-      {"method", choice.method},
-      {"scalar", choice.scalar},
-      {"tip", list_of(setting.tip)},
-      {"start",
-       {{"position", list_of(setting.start.translation)}, {"orientation", {q.w(), q.x(), q.y(), q.z()}}}},
-      {"tool", pieces}}
+  return ordered_json{{"type", "stage"},
+                      {"stage", number},
+                      {"scene", origin.scene},
+                      {"variant", origin.variant},
+                      {"title", origin.title},
+                      {"hint", origin.hint},
+                      {"description", setting.description},
+                      {"triangles", setting.triangles.rows()},
+                      {"clearance", origin.clearance ? ordered_json(*origin.clearance) : ordered_json(nullptr)},
+                      {"stiffness", settings.stiffness.translational.x()},
+                      {"rotational_stiffness", settings.stiffness.rotational.x()},
+                      {"margin", settings.margin},
+                      {"method", choice.method},
+                      {"scalar", choice.scalar},
+                      {"tip", list_of(setting.tip)},
+                      {"start", {{"position", list_of(setting.start.translation)}, {"orientation", {q.w(), q.x(), q.y(), q.z()}}}},
+                      {"tool", pieces}}
       .dump();
 }
 
 std::string sentence_text(const char* type, const std::string& sentence) {
-  return ordered_json{{"type", type}, {"text", sentence}}.dump(-1, ' ', false,
-                                                               ordered_json::error_handler_t::replace);
+  return ordered_json{{"type", type}, {"text", sentence}}.dump(-1, ' ', false, ordered_json::error_handler_t::replace);
 }
 
 }  // namespace feeler::demo

@@ -28,8 +28,7 @@ struct StageSettings {
 /// The first text of a page: version, gallery, and what can be chosen.
 std::string hello_text(const std::vector<GalleryEntry>& gallery, double rate);
 /// A stage: its scene, settings and tool.
-std::string stage_text(int number, const LiveScene& scene, const StageSettings& settings,
-                       const StageOrigin& origin);
+std::string stage_text(int number, const LiveScene& scene, const StageSettings& settings, const StageOrigin& origin);
 /// One sentence for the user; `type` is note or refusal.
 std::string sentence_text(const char* type, const std::string& sentence);
 

@@ -15,13 +15,11 @@ namespace feeler::demo {
 /// by the thread that offers.
 class StageSwitch {
  public:
-  explicit StageSwitch(std::shared_ptr<Stage> first)
-      : on_show_(std::move(first)), offered_(nullptr), taken_(on_show_.get()) {}
+  explicit StageSwitch(std::shared_ptr<Stage> first) : on_show_(std::move(first)), offered_(nullptr), taken_(on_show_.get()) {}
 
   /// By the loop, at the start of a tick. Wait-free.
   Stage& current() noexcept {
-    if (Stage* next = offered_.exchange(nullptr, std::memory_order_acquire); next != nullptr)
-      taken_.store(next, std::memory_order_release);
+    if (Stage* next = offered_.exchange(nullptr, std::memory_order_acquire); next != nullptr) taken_.store(next, std::memory_order_release);
     return *taken_.load(std::memory_order_relaxed);
   }
 
@@ -30,8 +28,7 @@ class StageSwitch {
   template <class IsRunning>
   void offer(std::shared_ptr<Stage> stage, const IsRunning& is_running) {
     offered_.store(stage.get(), std::memory_order_release);
-    while (taken_.load(std::memory_order_acquire) != stage.get() && is_running())
-      std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    while (taken_.load(std::memory_order_acquire) != stage.get() && is_running()) std::this_thread::sleep_for(std::chrono::milliseconds(1));
     on_show_ = std::move(stage);
   }
 
@@ -52,13 +49,10 @@ class StagedDevice final : public Device {
   OpenResult open() override { return {}; }
   DeviceStatus read(DeviceState& state) noexcept override {
     stage_ = &stages_.current();
-    if (viewer::HandRequest request; feed_.fetch(request) && request.stage == stage_->number())
-      stage_->ask(request);
+    if (viewer::HandRequest request; feed_.fetch(request) && request.stage == stage_->number()) stage_->ask(request);
     return stage_->read(state);
   }
-  DeviceStatus write(const DeviceWrench& wrench) noexcept override {
-    return stage_ == nullptr ? DeviceStatus::ok : stage_->write(wrench);
-  }
+  DeviceStatus write(const DeviceWrench& wrench) noexcept override { return stage_ == nullptr ? DeviceStatus::ok : stage_->write(wrench); }
   void close() noexcept override {}
   const DeviceSpecification& specification() const noexcept override { return specification_; }
   bool lives_by_the_clock() const noexcept override { return false; }

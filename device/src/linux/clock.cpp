@@ -19,8 +19,7 @@ void MonotonicClock::sleep_until(std::int64_t moment) noexcept {
   timespec time = {};
   time.tv_sec = static_cast<decltype(time.tv_sec)>(moment / second);
   time.tv_nsec = static_cast<decltype(time.tv_nsec)>(moment % second);
-  while (clock_nanosleep(CLOCK_MONOTONIC, TIMER_ABSTIME, &time, nullptr) == EINTR) {
-  }
+  while (clock_nanosleep(CLOCK_MONOTONIC, TIMER_ABSTIME, &time, nullptr) == EINTR) {}
 }
 
 }  // namespace feeler

@@ -28,9 +28,7 @@ std::string refusal(const std::string& what, int error, const std::string& remed
   return what + " was refused (" + std::strerror(error) + "): " + remedy + ".";
 }
 
-std::string capabilities_command() {
-  return "grant it with `sudo setcap cap_sys_nice,cap_ipc_lock+ep " + program() + "`";
-}
+std::string capabilities_command() { return "grant it with `sudo setcap cap_sys_nice,cap_ipc_lock+ep " + program() + "`"; }
 
 void describe_kernel(RealTimeSetup& setup) {
   utsname name = {};
@@ -44,8 +42,7 @@ void describe_kernel(RealTimeSetup& setup) {
 void lock_memory(RealTimeSetup& setup) {
   // Under a finite limit, locking future memory too would make a later, innocent allocation fail.
   rlimit limit = {};
-  const bool is_limited =
-      geteuid() != 0 && getrlimit(RLIMIT_MEMLOCK, &limit) == 0 && limit.rlim_cur != RLIM_INFINITY;
+  const bool is_limited = geteuid() != 0 && getrlimit(RLIMIT_MEMLOCK, &limit) == 0 && limit.rlim_cur != RLIM_INFINITY;
   if (mlockall(is_limited ? MCL_CURRENT : MCL_CURRENT | MCL_FUTURE) == 0) {
     setup.is_memory_locked = true;
   } else {
@@ -58,8 +55,7 @@ void choose_scheduler(int priority, RealTimeSetup& setup) {
   parameters.sched_priority = priority;
   const int error = pthread_setschedparam(pthread_self(), SCHED_FIFO, &parameters);
   if (error != 0) {
-    const std::string remedy =
-        error == EINVAL ? "ask for a priority of 1 to 99; `chrt --max` lists them" : capabilities_command();
+    const std::string remedy = error == EINVAL ? "ask for a priority of 1 to 99; `chrt --max` lists them" : capabilities_command();
     setup.refused.push_back(refusal("SCHED_FIFO at priority " + std::to_string(priority), error, remedy));
   }
 }
@@ -73,8 +69,7 @@ void choose_processor(int processor, RealTimeSetup& setup) {
     error = pthread_setaffinity_np(pthread_self(), sizeof set, &set);
   }
   if (error != 0) {
-    setup.refused.push_back(refusal("Running on processor " + std::to_string(processor), error,
-                                    "choose one of those that `taskset -cp $$` lists"));
+    setup.refused.push_back(refusal("Running on processor " + std::to_string(processor), error, "choose one of those that `taskset -cp $$` lists"));
   }
 }
 

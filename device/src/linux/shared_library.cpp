@@ -22,8 +22,6 @@ std::string SharedLibrary::load(const std::vector<std::string>& candidates) {
   return refusals.empty() ? std::string("no file name was given") : refusals;
 }
 
-void* SharedLibrary::address_of(const char* name) const noexcept {
-  return handle_ == nullptr ? nullptr : dlsym(handle_, name);
-}
+void* SharedLibrary::address_of(const char* name) const noexcept { return handle_ == nullptr ? nullptr : dlsym(handle_, name); }
 
 }  // namespace feeler

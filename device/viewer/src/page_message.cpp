@@ -33,8 +33,7 @@ const json& member(const json& object, const char* name) {
 
 template <std::size_t count>
 void read_numbers(const json& list, const char* what, double bound, double (&numbers)[count]) {
-  if (!list.is_array() || list.size() != count)
-    throw Refused{std::string(what) + " is no list of " + std::to_string(count) + " numbers."};
+  if (!list.is_array() || list.size() != count) throw Refused{std::string(what) + " is no list of " + std::to_string(count) + " numbers."};
   for (std::size_t i = 0; i < count; ++i) numbers[i] = number_of(list[i], what, -bound, bound);
 }
 
@@ -49,9 +48,7 @@ DevicePose pose_of(const json& message) {
   return pose;
 }
 
-std::int32_t stage_of(const json& message) {
-  return std::int32_t(number_of(member(message, "stage"), "The stage", 0, 1e9));
-}
+std::int32_t stage_of(const json& message) { return std::int32_t(number_of(member(message, "stage"), "The stage", 0, 1e9)); }
 
 std::string name_of(const json& message, const char* key) {
   const auto found = message.find(key);

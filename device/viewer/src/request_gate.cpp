@@ -11,8 +11,7 @@ namespace {
 bool is_same_secret(std::string_view a, std::string_view b) noexcept {
   if (a.size() != b.size()) return false;
   unsigned difference = 0;
-  for (std::size_t i = 0; i < a.size(); ++i)
-    difference |= unsigned(static_cast<unsigned char>(a[i]) ^ static_cast<unsigned char>(b[i]));
+  for (std::size_t i = 0; i < a.size(); ++i) difference |= unsigned(static_cast<unsigned char>(a[i]) ^ static_cast<unsigned char>(b[i]));
   return difference == 0;
 }
 
@@ -22,8 +21,7 @@ std::string_view query_value(std::string_view target, std::string_view name) noe
   while (!query.empty()) {
     const std::size_t end = query.find('&');
     const std::string_view pair = query.substr(0, end);
-    if (pair.substr(0, name.size()) == name && pair.substr(name.size(), 1) == "=")
-      return pair.substr(name.size() + 1);
+    if (pair.substr(0, name.size()) == name && pair.substr(name.size(), 1) == "=") return pair.substr(name.size() + 1);
     query = end == std::string_view::npos ? std::string_view() : query.substr(end + 1);
   }
   return {};
@@ -36,14 +34,12 @@ RequestGate::RequestGate(std::string address, unsigned short port, std::string t
 
 Verdict RequestGate::judge(const RequestHead& request) const {
   if (request.method != "GET") return {405, "Only GET is answered here."};
-  if (!is_own_host(request.host))
-    return {403, "This request names another host than the one that serves the page."};
+  if (!is_own_host(request.host)) return {403, "This request names another host than the one that serves the page."};
   constexpr std::string_view scheme = "http://";
-  const bool is_foreign = !request.origin.empty() && (request.origin.substr(0, scheme.size()) != scheme ||
-                                                      request.origin.substr(scheme.size()) != request.host);
+  const bool is_foreign =
+      !request.origin.empty() && (request.origin.substr(0, scheme.size()) != scheme || request.origin.substr(scheme.size()) != request.host);
   if (is_foreign) return {403, "This request comes from a page of another site."};
-  if (!has_token(request.target))
-    return {403, "This request lacks the token: open the address that feeler-demo printed."};
+  if (!has_token(request.target)) return {403, "This request lacks the token: open the address that feeler-demo printed."};
   return {};
 }
 
@@ -51,17 +47,15 @@ bool RequestGate::is_own_host(std::string_view host) const {
   // Whoever listens at every address cannot know the names under which others reach it; there the token
   // decides.
   if (address_ == "0.0.0.0" || address_ == "[::]") return !host.empty();
-  for (const std::string_view name : {std::string_view(address_), std::string_view("localhost"),
-                                      std::string_view("127.0.0.1"), std::string_view("[::1]")})
-    if (host.size() == name.size() + 1 + port_.size() && host.substr(0, name.size()) == name &&
-        host[name.size()] == ':' && host.substr(name.size() + 1) == port_)
+  for (const std::string_view name :
+       {std::string_view(address_), std::string_view("localhost"), std::string_view("127.0.0.1"), std::string_view("[::1]")})
+    if (host.size() == name.size() + 1 + port_.size() && host.substr(0, name.size()) == name && host[name.size()] == ':' &&
+        host.substr(name.size() + 1) == port_)
       return true;
   return false;
 }
 
-bool RequestGate::has_token(std::string_view target) const {
-  return token_.empty() || is_same_secret(query_value(target, "token"), token_);
-}
+bool RequestGate::has_token(std::string_view target) const { return token_.empty() || is_same_secret(query_value(target, "token"), token_); }
 
 std::string random_token() {
   std::random_device bits;
@@ -73,8 +67,6 @@ std::string random_token() {
   return token;
 }
 
-std::string_view path_of(std::string_view target) noexcept {
-  return target.substr(0, target.find('?'));
-}
+std::string_view path_of(std::string_view target) noexcept { return target.substr(0, target.find('?')); }
 
 }  // namespace feeler::viewer

@@ -35,8 +35,7 @@ using Bytes = std::shared_ptr<const std::string>;
 constexpr std::string_view socket_path = "/live";
 constexpr auto patience = std::chrono::seconds(20);  // with a request that does not end
 constexpr std::size_t longest_header = 8192;         // [bytes]
-constexpr std::size_t longest_queue =
-    900;  // messages to a page that does not read; fifteen seconds of frames
+constexpr std::size_t longest_queue = 900;  // messages to a page that does not read; fifteen seconds of frames
 constexpr int most_messages_a_second = 400;  // from a page
 
 class Page;
@@ -48,15 +47,12 @@ struct Shared {
   std::unordered_set<Page*> pages = {};
 };
 
-std::string_view view(beast::string_view text) {
-  return {text.data(), text.size()};
-}
+std::string_view view(beast::string_view text) { return {text.data(), text.size()}; }
 
 /// The WebSocket of one page that is open.
 class Page final : public PageLink, public std::enable_shared_from_this<Page> {
  public:
-  Page(beast::tcp_stream&& stream, std::shared_ptr<Shared> shared)
-      : socket_(std::move(stream)), shared_(std::move(shared)) {}
+  Page(beast::tcp_stream&& stream, std::shared_ptr<Shared> shared) : socket_(std::move(stream)), shared_(std::move(shared)) {}
   ~Page() override { shared_->pages.erase(this); }
 
   void open(const http::request<http::string_body>& request) {
@@ -106,8 +102,7 @@ class Page final : public PageLink, public std::enable_shared_from_this<Page> {
   void answer() {
     if (is_too_talkative()) return close(websocket::close_code::policy_error, "too many messages a second");
     const std::string text = beast::buffers_to_string(buffer_.data());
-    std::string reply = shared_->settings.on_text ? shared_->settings.on_text(text)
-                                                  : R"({"type":"refusal","reason":"Nothing is read here."})";
+    std::string reply = shared_->settings.on_text ? shared_->settings.on_text(text) : R"({"type":"refusal","reason":"Nothing is read here."})";
     if (!reply.empty()) send_text(std::make_shared<const std::string>(std::move(reply)));
   }
 
@@ -131,12 +126,11 @@ class Page final : public PageLink, public std::enable_shared_from_this<Page> {
 
   void write() {
     socket_.text(queue_.front().is_text);
-    socket_.async_write(asio::buffer(*queue_.front().bytes),
-                        [self = shared_from_this()](Error error, std::size_t) {
-                          if (error) return self->leave();
-                          self->queue_.pop_front();
-                          if (!self->queue_.empty() && !self->is_closing_) self->write();
-                        });
+    socket_.async_write(asio::buffer(*queue_.front().bytes), [self = shared_from_this()](Error error, std::size_t) {
+      if (error) return self->leave();
+      self->queue_.pop_front();
+      if (!self->queue_.empty() && !self->is_closing_) self->write();
+    });
   }
 
   websocket::stream<beast::tcp_stream> socket_;
@@ -151,8 +145,7 @@ class Page final : public PageLink, public std::enable_shared_from_this<Page> {
 /// A connection that asks for resources, until it becomes a WebSocket.
 class Connection final : public std::enable_shared_from_this<Connection> {
  public:
-  Connection(Tcp::socket&& socket, std::shared_ptr<Shared> shared)
-      : stream_(std::move(socket)), shared_(std::move(shared)) {}
+  Connection(Tcp::socket&& socket, std::shared_ptr<Shared> shared) : stream_(std::move(socket)), shared_(std::move(shared)) {}
 
   void read() {
     parser_.emplace();
@@ -160,10 +153,9 @@ class Connection final : public std::enable_shared_from_this<Connection> {
     parser_->body_limit(std::uint64_t(0));
     stream_.expires_after(patience);
     http::async_read(stream_, buffer_, *parser_, [self = shared_from_this()](Error error, std::size_t) {
-      if (error == http::error::header_limit || error == http::error::body_limit)
-        return self->refuse({431, "This request is too long."});
-      if (error.category() == http::make_error_code(http::error::bad_method).category() &&
-          error != http::error::end_of_stream && error != http::error::partial_message)
+      if (error == http::error::header_limit || error == http::error::body_limit) return self->refuse({431, "This request is too long."});
+      if (error.category() == http::make_error_code(http::error::bad_method).category() && error != http::error::end_of_stream &&
+          error != http::error::partial_message)
         return self->refuse({400, "This is no HTTP request."});
       if (!error) self->answer();
     });
@@ -175,15 +167,13 @@ class Connection final : public std::enable_shared_from_this<Connection> {
   void answer() {
     const auto& request = parser_->get();
     const bool is_upgrade = websocket::is_upgrade(request);
-    const Verdict verdict = shared_->gate.judge({view(request.method_string()), view(request.target()),
-                                                 view(request[http::field::host]),
-                                                 view(request[http::field::origin]), is_upgrade});
+    const Verdict verdict = shared_->gate.judge(
+        {view(request.method_string()), view(request.target()), view(request[http::field::host]), view(request[http::field::origin]), is_upgrade});
     if (!verdict) return refuse(verdict);
     const std::string_view path = path_of(view(request.target()));
     if (path == socket_path) {
       if (!is_upgrade) return refuse({400, "A WebSocket is served here."});
-      if (shared_->pages.size() >= Server::most_pages)
-        return refuse({503, "Too many pages are open: close one and load this one again."});
+      if (shared_->pages.size() >= Server::most_pages) return refuse({503, "Too many pages are open: close one and load this one again."});
       // A Page ends the request's life here, with its connection.
       const auto upgrade = parser_->release();
       return std::make_shared<Page>(std::move(stream_), shared_)->open(upgrade);
@@ -193,10 +183,7 @@ class Connection final : public std::enable_shared_from_this<Connection> {
     respond(http::status::ok, resource.content_type, *resource.body, request.keep_alive());
   }
 
-  void refuse(const Verdict& verdict) {
-    respond(http::status(unsigned(verdict.status)), "text/plain; charset=utf-8", verdict.reason + "\n",
-            false);
-  }
+  void refuse(const Verdict& verdict) { respond(http::status(unsigned(verdict.status)), "text/plain; charset=utf-8", verdict.reason + "\n", false); }
 
   void respond(http::status status, const std::string& type, std::string body, bool keeps_alive) {
     response_ = Response(status, 11);
@@ -230,9 +217,7 @@ class Connection final : public std::enable_shared_from_this<Connection> {
 Tcp::acceptor listening(asio::io_context& context, const ServerSettings& settings) {
   Error error;
   const auto address = asio::ip::make_address(settings.address, error);
-  if (error)
-    throw std::runtime_error(settings.address +
-                             " is no IP address: give one of this machine, such as 127.0.0.1.");
+  if (error) throw std::runtime_error(settings.address + " is no IP address: give one of this machine, such as 127.0.0.1.");
   const Tcp::endpoint endpoint(address, settings.port);
   Tcp::acceptor acceptor(context);
   acceptor.open(endpoint.protocol());
@@ -240,16 +225,13 @@ Tcp::acceptor listening(asio::io_context& context, const ServerSettings& setting
   acceptor.bind(endpoint, error);
   if (!error) acceptor.listen(asio::socket_base::max_listen_connections, error);
   if (error) {
-    throw std::runtime_error("The port " + std::to_string(settings.port) + " of " + settings.address +
-                             " cannot be had (" + error.message() +
+    throw std::runtime_error("The port " + std::to_string(settings.port) + " of " + settings.address + " cannot be had (" + error.message() +
                              "): choose another one, or 0 for any that is free.");
   }
   return acceptor;
 }
 
-std::string address_in_url(const std::string& address) {
-  return address.find(':') == std::string::npos ? address : '[' + address + ']';
-}
+std::string address_in_url(const std::string& address) { return address.find(':') == std::string::npos ? address : '[' + address + ']'; }
 
 }  // namespace
 
@@ -258,8 +240,7 @@ class Server::Implementation {
   explicit Implementation(ServerSettings settings)
       : acceptor_(listening(context_, settings)),
         port_(acceptor_.local_endpoint().port()),
-        shared_(std::make_shared<Shared>(
-            Shared{settings, RequestGate(address_in_url(settings.address), port_, settings.token)})),
+        shared_(std::make_shared<Shared>(Shared{settings, RequestGate(address_in_url(settings.address), port_, settings.token)})),
         timer_(context_) {}
 
   ~Implementation() {
@@ -281,8 +262,7 @@ class Server::Implementation {
   void post(std::function<void()> work) { asio::post(context_, std::move(work)); }
 
   void broadcast(const Bytes& bytes, bool is_text) {
-    const std::unordered_set<Page*> pages =
-        shared_->pages;  // a page that does not read leaves while it is told
+    const std::unordered_set<Page*> pages = shared_->pages;  // a page that does not read leaves while it is told
     for (Page* page : pages) is_text ? page->send_text(bytes) : page->send_binary(bytes);
   }
 
@@ -317,15 +297,10 @@ class Server::Implementation {
   std::thread thread_;
 };
 
-Server::Server(ServerSettings settings)
-    : implementation_(std::make_unique<Implementation>(std::move(settings))) {}
+Server::Server(ServerSettings settings) : implementation_(std::make_unique<Implementation>(std::move(settings))) {}
 Server::~Server() = default;
-void Server::start() {
-  implementation_->start();
-}
-unsigned short Server::port() const noexcept {
-  return implementation_->port();
-}
+void Server::start() { implementation_->start(); }
+unsigned short Server::port() const noexcept { return implementation_->port(); }
 
 std::string Server::url() const {
   const ServerSettings& settings = implementation_->settings();
@@ -339,8 +314,6 @@ void Server::broadcast_text(std::shared_ptr<const std::string> text) {
 void Server::broadcast_binary(std::shared_ptr<const std::string> bytes) {
   post([this, bytes = std::move(bytes)] { implementation_->broadcast(bytes, false); });
 }
-void Server::post(std::function<void()> work) {
-  implementation_->post(std::move(work));
-}
+void Server::post(std::function<void()> work) { implementation_->post(std::move(work)); }
 
 }  // namespace feeler::viewer

@@ -66,9 +66,7 @@ class Words {
   std::vector<double> words_;
 };
 
-void append(std::string& bytes, const void* data, std::size_t size) {
-  bytes.append(static_cast<const char*>(data), size);
-}
+void append(std::string& bytes, const void* data, std::size_t size) { bytes.append(static_cast<const char*>(data), size); }
 
 Words words_of(const Frame& frame) {
   const Snapshot& snapshot = frame.snapshot;
@@ -96,18 +94,13 @@ Words words_of(const Frame& frame) {
 
 }  // namespace
 
-std::string encoded(const Frame& frame) {
-  return words_of(frame).bytes();
-}
-std::string encoded_as_floats(const Frame& frame) {
-  return words_of(frame).bytes_as_floats();
-}
+std::string encoded(const Frame& frame) { return words_of(frame).bytes(); }
+std::string encoded_as_floats(const Frame& frame) { return words_of(frame).bytes_as_floats(); }
 
 std::string encoded_mesh(int stage, const Points<double>& vertices, const Triangles& triangles) {
-  const Vector3<double> centre =
-      vertices.rows() == 0
-          ? Vector3<double>::Zero()
-          : Vector3<double>((vertices.colwise().minCoeff() + vertices.colwise().maxCoeff()).transpose() / 2);
+  const Vector3<double> centre = vertices.rows() == 0
+                                     ? Vector3<double>::Zero()
+                                     : Vector3<double>((vertices.colwise().minCoeff() + vertices.colwise().maxCoeff()).transpose() / 2);
   Words words(WireKind::mesh);
   words.add(stage);
   words.add_all(centre);

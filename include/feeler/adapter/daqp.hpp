@@ -51,8 +51,7 @@ class DaqpSolver {
     result.x = step.data();
     result.lam = multipliers.data();
     reset_daqp_workspace(workspace_.get());  // of the problem before
-    constexpr int everything =
-        DAQP_UPDATE_Rinv | DAQP_UPDATE_M | DAQP_UPDATE_v | DAQP_UPDATE_d | DAQP_UPDATE_sense;
+    constexpr int everything = DAQP_UPDATE_Rinv | DAQP_UPDATE_M | DAQP_UPDATE_v | DAQP_UPDATE_d | DAQP_UPDATE_sense;
     result.exitflag = daqp_update_ldp(everything, workspace_.get(), &qp);
     if (result.exitflag >= 0) daqp_solve(&result, workspace_.get());
     solution.iterations = result.iter;

@@ -34,8 +34,7 @@ class DenseProblem {
     if (!factor_.factor(problem.hessian)) return false;
     status = QpStatus::iteration_limit;
     if (!is_finite(problem)) return false;
-    status = conclude(problem, factor_, Vector6<double>(-factor_.solve(problem.gradient)), {}, tolerance,
-                      solution);
+    status = conclude(problem, factor_, Vector6<double>(-factor_.solve(problem.gradient)), {}, tolerance, solution);
     if (status == QpStatus::optimal || problem.row_count == 0) return false;
     for (int i = 0; i < 6; ++i) {
       gradient[at(i)] = problem.gradient[i];
@@ -52,8 +51,8 @@ class DenseProblem {
   /// @param step         six numbers
   /// @param multipliers  one a row
   /// @param sign         of the library's multipliers of lower bounds: 1 or −1
-  QpStatus end(const Problem& problem, const double* step, const double* multipliers, double sign,
-               double tolerance, Solution& solution) const noexcept {
+  QpStatus end(const Problem& problem, const double* step, const double* multipliers, double sign, double tolerance,
+               Solution& solution) const noexcept {
     const int iterations = solution.iterations;
     QpMultipliers<double> ours{};
     for (int k = 0; k < problem.row_count; ++k) ours[at(k)] = sign * multipliers[k];

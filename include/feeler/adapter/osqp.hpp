@@ -27,10 +27,8 @@ class OsqpSolver {
     const OSQPInt count = problem.row_count;
     fill_columns(problem);
     OSQPCscMatrix hessian, rows;
-    OSQPCscMatrix_set_data(&hessian, 6, 6, 21, upper_triangle_.data(), triangle_rows_.data(),
-                           triangle_starts_.data());
-    OSQPCscMatrix_set_data(&rows, count, 6, 6 * count, columns_.data(), column_rows_.data(),
-                           column_starts_.data());
+    OSQPCscMatrix_set_data(&hessian, 6, 6, 21, upper_triangle_.data(), triangle_rows_.data(), triangle_starts_.data());
+    OSQPCscMatrix_set_data(&rows, count, 6, 6 * count, columns_.data(), column_rows_.data(), column_starts_.data());
     OSQPSettings settings;
     osqp_set_default_settings(&settings);
     settings.verbose = 0;
@@ -39,8 +37,7 @@ class OsqpSolver {
     settings.max_iter = most_iterations;
     settings.polishing = 1;
     OSQPSolver* solver = nullptr;
-    if (osqp_setup(&solver, &hessian, dense_.gradient.data(), &rows, dense_.lower.data(), dense_.upper.data(),
-                   count, 6, &settings) == 0) {
+    if (osqp_setup(&solver, &hessian, dense_.gradient.data(), &rows, dense_.lower.data(), dense_.upper.data(), count, 6, &settings) == 0) {
       osqp_solve(solver);
       solution.iterations = int(solver->info->iter);
       status = solver->info->status_val == OSQP_PRIMAL_INFEASIBLE

@@ -31,15 +31,12 @@ class ProxQpSolver {
     qp.settings.eps_primal_inf = 1e-12;  // the default of 1e-4 takes flat wedges for infeasible
     qp.settings.max_iter = most_iterations;
     qp.settings.max_iter_in = most_iterations;
-    qp.init(Eigen::Map<const RowMajor>(dense_.hessian.data(), 6, 6),
-            Eigen::Map<const Eigen::VectorXd>(dense_.gradient.data(), 6), proxsuite::nullopt,
+    qp.init(Eigen::Map<const RowMajor>(dense_.hessian.data(), 6, 6), Eigen::Map<const Eigen::VectorXd>(dense_.gradient.data(), 6), proxsuite::nullopt,
             proxsuite::nullopt, Eigen::Map<const RowMajor>(dense_.rows.data(), count, 6),
-            Eigen::Map<const Eigen::VectorXd>(dense_.lower.data(), count),
-            Eigen::Map<const Eigen::VectorXd>(dense_.upper.data(), count));
+            Eigen::Map<const Eigen::VectorXd>(dense_.lower.data(), count), Eigen::Map<const Eigen::VectorXd>(dense_.upper.data(), count));
     qp.solve();
     solution.iterations = int(qp.results.info.iter);
-    if (qp.results.info.status == proxsuite::proxqp::QPSolverOutput::PROXQP_PRIMAL_INFEASIBLE)
-      return QpStatus::infeasible;
+    if (qp.results.info.status == proxsuite::proxqp::QPSolverOutput::PROXQP_PRIMAL_INFEASIBLE) return QpStatus::infeasible;
     return dense_.end(problem, qp.results.x.data(), qp.results.z.data(), -1.0, tolerance, solution);
   }
 

@@ -30,13 +30,11 @@ class QpOasesSolver {
     options.printLevel = qpOASES::PL_NONE;
     qp.setOptions(options);
     qpOASES::int_t iterations = most_iterations;
-    qp.init(dense_.hessian.data(), dense_.gradient.data(), dense_.rows.data(), nullptr, nullptr,
-            dense_.lower.data(), nullptr, iterations);
+    qp.init(dense_.hessian.data(), dense_.gradient.data(), dense_.rows.data(), nullptr, nullptr, dense_.lower.data(), nullptr, iterations);
     solution.iterations = int(iterations);
     if (qp.isInfeasible() == qpOASES::BT_TRUE) return QpStatus::infeasible;
     std::array<double, 6> step{};
-    std::array<double, std::size_t(6 + QpProblem<double>::row_capacity)>
-        multipliers{};  // of the variables' bounds, then of the rows
+    std::array<double, std::size_t(6 + QpProblem<double>::row_capacity)> multipliers{};  // of the variables' bounds, then of the rows
     qp.getPrimalSolution(step.data());
     qp.getDualSolution(multipliers.data());
     return dense_.end(problem, step.data(), multipliers.data() + 6, 1.0, tolerance, solution);

@@ -54,8 +54,8 @@ class ContactPatch {
   /// @param band             height above the separating plane up to which features count, where their gap is at most a quarter of it [m]
   /// @param assumes_valleys  let the planes of valleys hold the tool before it is over them
   /// @param near_vertices    is filled with the tool vertices in the band; made for at least as many as the tool has
-  ContactPatch(const Tool& tool, const FeatureIncidence& incidence, const TriangleMesh<MeshScalar>& mesh,
-               const Matrix3<Scalar>& world_from_tool, const Vector& reference, Scalar band, bool assumes_valleys, VertexSet& near_vertices) noexcept
+  ContactPatch(const Tool& tool, const FeatureIncidence& incidence, const TriangleMesh<MeshScalar>& mesh, const Matrix3<Scalar>& world_from_tool,
+               const Vector& reference, Scalar band, bool assumes_valleys, VertexSet& near_vertices) noexcept
       : tool_(tool),
         incidence_(incidence),
         world_from_tool_(world_from_tool),
@@ -70,9 +70,7 @@ class ContactPatch {
   ContactPatch& operator=(const ContactPatch&) = delete;
 
   /// Rows of a triangle with the closest points given; false when it had none but a ghost and that was left out.
-  FEELER_FLATTEN
-  bool find(int triangle, const Matrix3<Scalar>& corners, const ClosestPoints<Scalar>& closest, bool keep_ghost,
-            Rows& rows) noexcept {
+  FEELER_FLATTEN bool find(int triangle, const Matrix3<Scalar>& corners, const ClosestPoints<Scalar>& closest, bool keep_ghost, Rows& rows) noexcept {
     rows.clear();
     is_filler_ = false;
     surface_.stand_on(triangle);
@@ -102,7 +100,8 @@ class ContactPatch {
     if constexpr (SweptTool<Tool>) {
       rows.push_back(maker_.row_of_closest(closest, triangle_.corners()));
     } else {
-      rows.push_back(closest.is_touching ? row_of_touching(closest) : maker_.row_of(FeaturePair::vertex_face, normal_, closest.tool_point, closest.distance));
+      rows.push_back(closest.is_touching ? row_of_touching(closest)
+                                         : maker_.row_of(FeaturePair::vertex_face, normal_, closest.tool_point, closest.distance));
     }
     return true;
   }
@@ -118,7 +117,8 @@ class ContactPatch {
     for (const int i : near_) {
       const Vector vertex = tool_.vertex(i);
       if (abs(gap_above_face(vertex)) > gap) continue;
-      const bool is_inside = triangle_.room_inside(0, vertex) >= -seam_ && triangle_.room_inside(1, vertex) >= -seam_ && triangle_.room_inside(2, vertex) >= -seam_;
+      const bool is_inside =
+          triangle_.room_inside(0, vertex) >= -seam_ && triangle_.room_inside(1, vertex) >= -seam_ && triangle_.room_inside(2, vertex) >= -seam_;
       if (is_inside) continue;
       const int under = surface_.triangle_under(vertex, triangle_.corner(0));
       if (under >= 0) visit(under);
@@ -139,9 +139,7 @@ class ContactPatch {
   }
 
   /// After `find`, of a triangle whose closest points are a ghost: a neighbour that is nearer to the tool, or -1.
-  int nearer_triangle(const ClosestPoints<Scalar>& closest) const noexcept {
-    return surface_.nearer_neighbour(place_on_triangle(closest), normal_);
-  }
+  int nearer_triangle(const ClosestPoints<Scalar>& closest) const noexcept { return surface_.nearer_neighbour(place_on_triangle(closest), normal_); }
 
  private:
   inline static const Scalar &least_cosine = PatchTriangle<Scalar>::least_cosine, &plane_tolerance = SurfaceAround<Scalar, MeshScalar>::tolerance;
@@ -197,14 +195,12 @@ class ContactPatch {
   Scalar gap_above_face(const Vector& vertex) const noexcept { return maker_.on_surface(triangle_.height_of(vertex)); }
 
   /// Of many vertices, as of a round end, those that hold it up.
-  FEELER_FLATTEN
-  void add_outer_vertices_on_face(Rows& rows) noexcept {
+  FEELER_FLATTEN void add_outer_vertices_on_face(Rows& rows) noexcept {
     take_outer_rows<Row>([this](const auto& visit) { this->visit_vertices_on_face(visit); }, band_ / 16, rows);
   }
 
   /// The triangle's own plane, where the lowest tool vertex is beside it, near, and every edge between them is a valley's.
-  FEELER_FLATTEN
-  void add_concave_face(const ClosestPoints<Scalar>& closest, Rows& rows) noexcept {
+  FEELER_FLATTEN void add_concave_face(const ClosestPoints<Scalar>& closest, Rows& rows) noexcept {
     if (!triangle_.has_face() || rows.full() || closest.distance > 4 * band_) return;
     for (const Scalar& side : {Scalar(1), Scalar(-1)}) {
       const Vector normal = side * triangle_.face_normal();
@@ -241,8 +237,7 @@ class ContactPatch {
     }
   }
 
-  FEELER_FLATTEN
-  void add_corners_on_face(const ToolFace<Scalar>& face, Rows& rows) noexcept {
+  FEELER_FLATTEN void add_corners_on_face(const ToolFace<Scalar>& face, Rows& rows) noexcept {
     using std::abs;
     const Vector outward = face.normal;
     if (-outward.dot(normal_) < least_cosine) return;
@@ -313,16 +308,16 @@ class ContactPatch {
     const Scalar gap = maker_.on_surface(normal.dot(between));
     if (abs(gap) > largest_gap_ || !surface_.is_clear_of_neighbour_across(object.number, normal)) return;
     // As beyond a valley.
-    if (beyond > Scalar(0) && !surface_.rises_beyond(along_object < Scalar(0) ? object.number : (object.number + 1) % 3,
-                                                     along_object < Scalar(0) ? Vector(-u) : u, normal)) return;
+    if (beyond > Scalar(0) &&
+        !surface_.rises_beyond(along_object < Scalar(0) ? object.number : (object.number + 1) % 3, along_object < Scalar(0) ? Vector(-u) : u, normal))
+      return;
     const Scalar tool_length = sqrt(tool_squared);
     const Scalar room = (std::min)({(std::max)(-beyond, Scalar(0)), part_of_tool * tool_length, (1 - part_of_tool) * tool_length});
     rows.push_back(maker_.row_of_edges(normal, Vector(tool_start + part_of_tool * tool), gap, room, u, Vector(tool / tool_length)));
   }
 
   /// Edges in parallel touch along an interval; its ends hold the tool.
-  FEELER_FLATTEN
-  void add_parallel_edges(const Vector& tool_start, const Vector& tool, const ObjectEdge& edge, Rows& rows) noexcept {
+  FEELER_FLATTEN void add_parallel_edges(const Vector& tool_start, const Vector& tool, const ObjectEdge& edge, Rows& rows) noexcept {
     using std::abs;
     const Vector &start = edge.start, &object = edge.span;
     const Scalar length_squared = tool.squaredNorm();
@@ -349,8 +344,7 @@ class ContactPatch {
 
   /// A row of shapes that touch along a plane. Which of the two the plane belongs to decides whether it turns with the tool, and where they are
   /// in contact: another plane, a hair askew, would ask for what its neighbours forbid.
-  FEELER_FLATTEN
-  Row row_of_touching(const ClosestPoints<Scalar>& closest) const noexcept {
+  FEELER_FLATTEN Row row_of_touching(const ClosestPoints<Scalar>& closest) const noexcept {
     if (is_own_plane()) {
       const Vector normal = triangle_.outward();
       return maker_.row_of(FeaturePair::vertex_face, normal, closest.tool_point, normal.dot(closest.tool_point - triangle_.corner(0)));

@@ -105,8 +105,7 @@ struct ContactRow {
   void add_curvature(const Scalar& multiple, Matrix6<Scalar>& lower) const noexcept {
     switch (kind) {
       case FeaturePair::vertex_face: add_chord(multiple, lower); break;
-      case FeaturePair::face_vertex:
-        add_chord(-multiple, lower);
+      case FeaturePair::face_vertex: add_chord(-multiple, lower);
 #pragma GCC unroll 3
         for (int j = 0; j < 3; ++j) {
           const int k = (j + 1) % 3, i = (j + 2) % 3;  // [n]×
@@ -149,8 +148,7 @@ struct ContactRow {
 
 /// The gap of a row where a motion ends; all else that `carried` finds is left out.
 template <class Row>
-FEELER_FLATTEN
-typename Row::Scalar carried_gap(const Row& row, const Displacement<typename Row::Scalar>& motion) noexcept {
+FEELER_FLATTEN typename Row::Scalar carried_gap(const Row& row, const Displacement<typename Row::Scalar>& motion) noexcept {
   return row.carried(motion).gap;
 }
 

@@ -21,8 +21,7 @@ inline constexpr int most_outer_rows = 16;
 /// @param rise      of the plane that tells who would be the lowest, across the rows [m]
 /// @cost O(rows)
 template <class Row, class EachRow, int most>
-FEELER_FLATTEN
-void take_outer_rows(const EachRow& each_row, const typename Row::Scalar& rise, FixedVector<Row, most>& taken) noexcept {
+FEELER_FLATTEN void take_outer_rows(const EachRow& each_row, const typename Row::Scalar& rise, FixedVector<Row, most>& taken) noexcept {
   using Scalar = typename Row::Scalar;
   using Vector = Vector3<Scalar>;
   FixedVector<Row, most_outer_rows> few;

@@ -41,8 +41,7 @@ class PatchRowMaker {
 
   /// A row whose features meet anywhere within `room` of the point. About a corner the normal turns within the gap, and there is next to no room:
   /// with a twentieth of the gap a tool that was about to slip off a ridge passed for one at rest.
-  FEELER_FLATTEN
-  Row row_of(FeaturePair kind, const Vector& normal, const Vector& point, Scalar gap, Scalar room = Scalar(0)) const noexcept {
+  FEELER_FLATTEN Row row_of(FeaturePair kind, const Vector& normal, const Vector& point, Scalar gap, Scalar room = Scalar(0)) const noexcept {
     Row row;
     row.kind = kind;
     row.room = (std::max)({room, gap / 64, least_room_});
@@ -53,7 +52,8 @@ class PatchRowMaker {
   }
   /// The row of two edges that cross.
   /// @param object_edge, tool_edge  unit directions
-  Row row_of_edges(const Vector& normal, const Vector& point, Scalar gap, Scalar room, const Vector& object_edge, const Vector& tool_edge) const noexcept {
+  Row row_of_edges(const Vector& normal, const Vector& point, Scalar gap, Scalar room, const Vector& object_edge,
+                   const Vector& tool_edge) const noexcept {
     Row row = row_of(FeaturePair::edge_edge, normal, point, gap, room);
     row.object_edge = world_from_tool_ * object_edge;
     row.tool_edge = world_from_tool_ * tool_edge;

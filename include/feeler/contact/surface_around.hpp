@@ -57,7 +57,8 @@ class SurfaceAround {
   }
   /// Whether the surface goes on in the same plane.
   bool is_flat_across(int edge) const noexcept {
-    return mesh_.topology().edge_convexity(triangle_, edge) == Convexity::flat || (wall() >= 0 && neighbour(edge) >= 0 && mesh_.walls().of_triangle(neighbour(edge)) == wall());
+    return mesh_.topology().edge_convexity(triangle_, edge) == Convexity::flat ||
+           (wall() >= 0 && neighbour(edge) >= 0 && mesh_.walls().of_triangle(neighbour(edge)) == wall());
   }
   /// Whether a corner of the triangle lies inside of its wall, where it is no corner of the surface.
   bool is_inside_wall(int corner) const noexcept { return mesh_.walls().is_inside(mesh_.triangle(triangle_)[std::size_t(corner)]); }
@@ -89,8 +90,7 @@ class SurfaceAround {
 
   /// Whether a point that may lie beside the triangle is over the wall that it belongs to; past its rim nothing holds.
   /// @param corner  the triangle's first [m]
-  FEELER_FLATTEN
-  bool is_under(const Vector& point, const Vector& corner) const noexcept { return find_under(point, corner) >= 0; }
+  FEELER_FLATTEN bool is_under(const Vector& point, const Vector& corner) const noexcept { return find_under(point, corner) >= 0; }
 
   /// The other triangle of the wall that a point is over, or for one beside the wall that at the rim where a walk to it ends; -1 if that ends at once.
   /// @param corner  the triangle's first [m]
@@ -119,10 +119,10 @@ class SurfaceAround {
     const auto neighbours = mesh_.topology().vertex_neighbours(vertex);
     const Vector direction_world = world_from_tool_ * direction, normal_world = world_from_tool_ * normal;
     return int(neighbours.size()) <= max_cone_valence && std::any_of(neighbours.begin(), neighbours.end(), [&](int other) {
-      if (std::find(own.begin(), own.end(), other) != own.end()) return false;
-      const Vector along = (mesh_.vertex(other) - mesh_.vertex(vertex)).template cast<Scalar>();
-      return direction_world.dot(along) > Scalar(0) && normal_world.dot(along) > tolerance * along.norm();
-    });
+             if (std::find(own.begin(), own.end(), other) != own.end()) return false;
+             const Vector along = (mesh_.vertex(other) - mesh_.vertex(vertex)).template cast<Scalar>();
+             return direction_world.dot(along) > Scalar(0) && normal_world.dot(along) > tolerance * along.norm();
+           });
   }
 
  private:

@@ -84,7 +84,6 @@ struct SweptContactRow : ContactRow<ScalarType> {
 
 /// The rows that a tool needs: a tool that is not swept carries nothing for those that are.
 template <ConvexTool Tool>
-using ContactRowOf =
-    std::conditional_t<SweptTool<Tool>, SweptContactRow<typename Tool::Scalar>, ContactRow<typename Tool::Scalar>>;
+using ContactRowOf = std::conditional_t<SweptTool<Tool>, SweptContactRow<typename Tool::Scalar>, ContactRow<typename Tool::Scalar>>;
 
 }  // namespace feeler

@@ -28,7 +28,10 @@ class OutermostAtRim {
   /// @param outward  that normal
   template <class Corner>
   OutermostAtRim(const TriangleMesh<MeshScalar>& mesh, int wall, int count, const Corner& corner, const Vector& outward) noexcept
-      : mesh_(mesh), wall_(wall), normal_(mesh.normal(mesh.walls()[wall].triangle).template cast<Scalar>()), is_clockwise_(normal_.dot(outward) < Scalar(0)) {
+      : mesh_(mesh),
+        wall_(wall),
+        normal_(mesh.normal(mesh.walls()[wall].triangle).template cast<Scalar>()),
+        is_clockwise_(normal_.dot(outward) < Scalar(0)) {
     origin_ = corner(0);
     along_ = corner(1) - origin_;
     const Scalar along_length = along_.norm();
@@ -101,7 +104,8 @@ class OutermostAtRim {
     for (int k = 0; k < 3; ++k) {
       const int neighbour = mesh_.topology().neighbour(triangle, k);
       if (neighbour >= 0 && mesh_.walls().of_triangle(neighbour) == wall_) continue;
-      const Point start = flat(mesh_.vertex(corners[std::size_t(k)]).template cast<Scalar>()), end = flat(mesh_.vertex(corners[std::size_t((k + 1) % 3)]).template cast<Scalar>());
+      const Point start = flat(mesh_.vertex(corners[std::size_t(k)]).template cast<Scalar>()),
+                  end = flat(mesh_.vertex(corners[std::size_t((k + 1) % 3)]).template cast<Scalar>());
       Scalar first(0), last(1);
       if (!clip(start, end, first, last)) continue;
       const bool is_first = is_preferred(triangle);
@@ -141,11 +145,11 @@ class OutermostAtRim {
 
   const TriangleMesh<MeshScalar>& mesh_;
   int wall_;
-  Vector normal_;                            // of the wall
-  bool is_clockwise_;                        // the face, seen from there
-  Vector origin_, along_, across_;           // a corner of the face, and two axes from it in the wall
-  Vector lower_, upper_;                     // box of the face, from the origin of the hierarchy [m]
-  FixedVector<Point, capacity> face_;        // along those axes [m]
+  Vector normal_;  // of the wall
+  bool is_clockwise_;  // the face, seen from there
+  Vector origin_, along_, across_;  // a corner of the face, and two axes from it in the wall
+  Vector lower_, upper_;  // box of the face, from the origin of the hierarchy [m]
+  FixedVector<Point, capacity> face_;  // along those axes [m]
   std::array<Scalar, directions> outermost_;
   std::array<int, directions> triangles_;
 };

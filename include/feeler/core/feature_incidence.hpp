@@ -56,8 +56,7 @@ class FeatureIncidence {
   /// @param edge_faces    (edge, face) for each edge that bounds a face
   /// @param vertex_faces  (vertex, face) for each vertex that bounds a face
   /// @cost  O(n log n), allocates
-  FeatureIncidence(int vertex_count, std::vector<std::array<int, 2>> edge_ends, int face_count,
-                   const std::vector<std::pair<int, int>>& edge_faces,
+  FeatureIncidence(int vertex_count, std::vector<std::array<int, 2>> edge_ends, int face_count, const std::vector<std::pair<int, int>>& edge_faces,
                    const std::vector<std::pair<int, int>>& vertex_faces)
       : vertex_count_(vertex_count), face_count_(face_count), edge_ends_(std::move(edge_ends)) {
     std::vector<std::pair<int, int>> vertex_edges;

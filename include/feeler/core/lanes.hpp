@@ -165,8 +165,7 @@ inline Lanes<LaneBits<Scalar>, lanes> first_lanes(int count) noexcept {
 /// A number that is written alone and read in a group soon after makes processors wait; so does a group of which some lanes are written, as
 /// compilers like to do where registers have masks.
 template <class Scalar, int lanes>
-inline Lanes<Scalar, lanes> with_lane(const Lanes<Scalar, lanes>& group, int lane,
-                                      const Scalar& value) noexcept {
+inline Lanes<Scalar, lanes> with_lane(const Lanes<Scalar, lanes>& group, int lane, const Scalar& value) noexcept {
   if constexpr (lanes == 1) {
     return lane == 0 ? value : group;
   } else {
@@ -270,7 +269,8 @@ inline Scalar largest_lane(const Lanes<Scalar, lanes>& group) noexcept {
 template <class Group>
 constexpr bool is_register_of_float = false;
 template <class Group>
-  requires(!std::is_arithmetic_v<Group> && sizeof(Group) <= std::size_t(vector_bytes)) && requires(Group g) { requires sizeof(g[0]) == sizeof(float); }
+  requires(!std::is_arithmetic_v<Group> && sizeof(Group) <= std::size_t(vector_bytes)) &&
+              requires(Group g) { requires sizeof(g[0]) == sizeof(float); }
 constexpr bool is_register_of_float<Group> = true;
 
 /// Whether a comparison of groups holds in every lane.

@@ -12,13 +12,12 @@ namespace feeler {
 
 /// A real number: built-in floating point, or a type that behaves like one and has an `Eigen::NumTraits`.
 template <class T>
-concept RealScalar = std::numeric_limits<T>::is_specialized && !std::numeric_limits<T>::is_integer &&
-                     requires(T a, T b) {
-                       { a + b } -> std::convertible_to<T>;
-                       { a * b } -> std::convertible_to<T>;
-                       { a / b } -> std::convertible_to<T>;
-                       { a < b } -> std::convertible_to<bool>;
-                     };
+concept RealScalar = std::numeric_limits<T>::is_specialized && !std::numeric_limits<T>::is_integer && requires(T a, T b) {
+  { a + b } -> std::convertible_to<T>;
+  { a* b } -> std::convertible_to<T>;
+  { a / b } -> std::convertible_to<T>;
+  { a < b } -> std::convertible_to<bool>;
+};
 
 template <class Scalar>
 using Vector3 = Eigen::Matrix<Scalar, 3, 1>;

@@ -54,8 +54,7 @@ class Bvh {
   /// @param triangles  at least one; indices into `vertices`
   /// @cost  O(n log n), allocates; half a microsecond a triangle
   template <class Vertices, class TriangleList>
-  Bvh(const Vertices& vertices, const TriangleList& triangles, const Vector3<Scalar>& origin)
-      : origin_(origin) {
+  Bvh(const Vertices& vertices, const TriangleList& triangles, const Vector3<Scalar>& origin) : origin_(origin) {
     const auto corner = [&](std::int32_t triangle, std::size_t c) -> decltype(auto) {
       return vertices[std::size_t(triangles[std::size_t(triangle)][c])];
     };
@@ -118,17 +117,11 @@ class Bvh {
  private:
   using Working = WorkingScalar<Scalar>;
 
-  Working from_origin(const Scalar& coordinate, int axis) const noexcept {
-    return Working(coordinate) - static_cast<Working>(origin_[axis]);
-  }
+  Working from_origin(const Scalar& coordinate, int axis) const noexcept { return Working(coordinate) - static_cast<Working>(origin_[axis]); }
   // The nearest float is up to half a step off on either side, so one step more is outside, whatever the
   // rounding of the difference was.
-  static float rounded_down(const Working& x) noexcept {
-    return std::nextafter(static_cast<float>(x), -std::numeric_limits<float>::infinity());
-  }
-  static float rounded_up(const Working& x) noexcept {
-    return std::nextafter(static_cast<float>(x), std::numeric_limits<float>::infinity());
-  }
+  static float rounded_down(const Working& x) noexcept { return std::nextafter(static_cast<float>(x), -std::numeric_limits<float>::infinity()); }
+  static float rounded_up(const Working& x) noexcept { return std::nextafter(static_cast<float>(x), std::numeric_limits<float>::infinity()); }
 
   /// Makes the nodes and leaves out of those of a binary tree.
   template <class MakeLeaf>
@@ -191,8 +184,7 @@ class Bvh {
       return box.is_leaf() ? -1.0F : box.half_area();
     };
     while (!children.full()) {
-      auto largest = std::max_element(children.begin(), children.end(),
-                                      [&](std::int32_t a, std::int32_t b) { return area(a) < area(b); });
+      auto largest = std::max_element(children.begin(), children.end(), [&](std::int32_t a, std::int32_t b) { return area(a) < area(b); });
       const BvhBuilder::Node& opened = binary[std::size_t(*largest)];
       if (opened.is_leaf()) break;
       *largest = opened.first;

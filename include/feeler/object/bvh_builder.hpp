@@ -41,8 +41,7 @@ class BvhBuilder {
 
   /// @param items        at least one; reordered so that leaf items are `items[first..first+count)`
   /// @param depth_limit  nodes on a path; kept unless halving the list alone needs more
-  explicit BvhBuilder(std::vector<BvhItem>& items, int depth_limit = max_depth)
-      : items_(items), depth_limit_(depth_limit) {
+  explicit BvhBuilder(std::vector<BvhItem>& items, int depth_limit = max_depth) : items_(items), depth_limit_(depth_limit) {
     nodes_.reserve(items.size());
     nodes_.push_back({});
     std::vector<Task> tasks{{0, 0, std::int32_t(items.size()), 1}};
@@ -100,9 +99,7 @@ class BvhBuilder {
   static constexpr float infinity = std::numeric_limits<float>::infinity();
 
   /// Twice the centre of an item; the factor does not matter to a split.
-  static float centre(const BvhItem& item, std::size_t axis) noexcept {
-    return item.lower[axis] + item.upper[axis];
-  }
+  static float centre(const BvhItem& item, std::size_t axis) noexcept { return item.lower[axis] + item.upper[axis]; }
 
   /// Writes the box of a node, and returns the box of the centres in it.
   Box enclose(const Task& task) noexcept {
@@ -134,9 +131,8 @@ class BvhBuilder {
     }
     const std::int32_t middle = task.begin + count / 2;
     if (is_spread)
-      std::nth_element(
-          items_.begin() + task.begin, items_.begin() + middle, items_.begin() + task.end,
-          [axis](const BvhItem& a, const BvhItem& b) { return centre(a, axis) < centre(b, axis); });
+      std::nth_element(items_.begin() + task.begin, items_.begin() + middle, items_.begin() + task.end,
+                       [axis](const BvhItem& a, const BvhItem& b) { return centre(a, axis) < centre(b, axis); });
     return middle;
   }
 
@@ -179,14 +175,12 @@ class BvhBuilder {
       }
     }
     if (best_bin == 0) return task.begin;
-    const auto middle = std::partition(
-        items_.begin() + task.begin, items_.begin() + task.end,
-        [&](const BvhItem& item) { return bin_of(item, best_axis, centres, scale) < best_bin; });
+    const auto middle = std::partition(items_.begin() + task.begin, items_.begin() + task.end,
+                                       [&](const BvhItem& item) { return bin_of(item, best_axis, centres, scale) < best_bin; });
     return std::int32_t(middle - items_.begin());
   }
 
-  static std::size_t bin_of(const BvhItem& item, std::size_t axis, const Box& centres,
-                            const std::array<float, 3>& scale) noexcept {
+  static std::size_t bin_of(const BvhItem& item, std::size_t axis, const Box& centres, const std::array<float, 3>& scale) noexcept {
     const float position = (centre(item, axis) - centres.lower[axis]) * scale[axis];
     return (std::min)(std::size_t(position), std::size_t(bin_count - 1));
   }

@@ -42,15 +42,9 @@ class EdgePairing {
     std::int32_t slot;  // 3 · triangle + k
   };
 
-  static bool has_repeated_corner(const std::array<int, 3>& t) noexcept {
-    return t[0] == t[1] || t[1] == t[2] || t[2] == t[0];
-  }
-  int start_of(std::int32_t slot) const noexcept {
-    return triangles_[std::size_t(slot / 3)][std::size_t(slot % 3)];
-  }
-  int end_of(std::int32_t slot) const noexcept {
-    return triangles_[std::size_t(slot / 3)][std::size_t((slot % 3 + 1) % 3)];
-  }
+  static bool has_repeated_corner(const std::array<int, 3>& t) noexcept { return t[0] == t[1] || t[1] == t[2] || t[2] == t[0]; }
+  int start_of(std::int32_t slot) const noexcept { return triangles_[std::size_t(slot / 3)][std::size_t(slot % 3)]; }
+  int end_of(std::int32_t slot) const noexcept { return triangles_[std::size_t(slot / 3)][std::size_t((slot % 3 + 1) % 3)]; }
 
   /// Fills `neighbours`, and returns each pair of joined vertices once.
   std::vector<std::pair<int, int>> pair_edges(int vertex_count, MeshReport& report) {
@@ -67,11 +61,8 @@ class EdgePairing {
     std::vector<std::pair<int, int>> joined;
     joined.reserve(neighbours.size() / 2 + 8);
     for (int v = 0; v < vertex_count; ++v) {
-      const auto first = edges.begin() + begin[std::size_t(v)],
-                 last = edges.begin() + begin[std::size_t(v) + 1];
-      std::sort(first, last, [](const Edge& a, const Edge& b) {
-        return a.larger != b.larger ? a.larger < b.larger : a.slot < b.slot;
-      });
+      const auto first = edges.begin() + begin[std::size_t(v)], last = edges.begin() + begin[std::size_t(v) + 1];
+      std::sort(first, last, [](const Edge& a, const Edge& b) { return a.larger != b.larger ? a.larger < b.larger : a.slot < b.slot; });
       for (auto group = first; group != last;) {
         auto group_end = group;
         while (group_end != last && group_end->larger == group->larger) ++group_end;
@@ -103,8 +94,7 @@ class EdgePairing {
     if (used <= 2) return;
     ++report.non_manifold_edges;
     for (int i = 0; i < count; ++i)
-      if (!has_repeated_corner(triangles_[std::size_t(edges[i].slot / 3)]))
-        neighbours[std::size_t(edges[i].slot)] = non_manifold_neighbour;
+      if (!has_repeated_corner(triangles_[std::size_t(edges[i].slot / 3)])) neighbours[std::size_t(edges[i].slot)] = non_manifold_neighbour;
   }
 
   void list_vertex_neighbours(int vertex_count, const std::vector<std::pair<int, int>>& joined) {
@@ -113,8 +103,7 @@ class EdgePairing {
       ++vertex_neighbour_begin[std::size_t(a) + 1];
       ++vertex_neighbour_begin[std::size_t(b) + 1];
     }
-    std::partial_sum(vertex_neighbour_begin.begin(), vertex_neighbour_begin.end(),
-                     vertex_neighbour_begin.begin());
+    std::partial_sum(vertex_neighbour_begin.begin(), vertex_neighbour_begin.end(), vertex_neighbour_begin.begin());
     vertex_neighbours.resize(joined.size() * 2);
     std::vector<std::int32_t> next = vertex_neighbour_begin;
     for (const auto& [a, b] : joined) {
@@ -142,8 +131,7 @@ class EdgePairing {
     for (std::int32_t s = 0; s < std::int32_t(neighbours.size()); ++s) {
       const std::int32_t neighbour = neighbours[std::size_t(s)];
       if (neighbour < s / 3) continue;  // none, or done from the other side
-      for (const int vertex : {start_of(s), end_of(s)})
-        parent[std::size_t(root(corner_at(s / 3, vertex)))] = root(corner_at(neighbour, vertex));
+      for (const int vertex : {start_of(s), end_of(s)}) parent[std::size_t(root(corner_at(s / 3, vertex)))] = root(corner_at(neighbour, vertex));
     }
     std::vector<std::uint8_t> fans(std::size_t(vertex_count), 0);
     for (std::int32_t s = 0; s < std::int32_t(neighbours.size()); ++s) {
@@ -164,8 +152,7 @@ class EdgePairing {
       rest[std::size_t(next[std::size_t(t[0])]++)] = {t[1], t[2]};
     }
     for (int v = 0; v < vertex_count; ++v) {
-      const auto first = rest.begin() + begin[std::size_t(v)],
-                 last = rest.begin() + begin[std::size_t(v) + 1];
+      const auto first = rest.begin() + begin[std::size_t(v)], last = rest.begin() + begin[std::size_t(v) + 1];
       std::sort(first, last);
       for (auto i = first; i != last && i + 1 != last; ++i)
         if (*i == *(i + 1)) ++report.duplicate_triangles;

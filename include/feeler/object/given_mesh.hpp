@@ -20,8 +20,8 @@ Eigen::Map<const Eigen::Matrix<Number, Eigen::Dynamic, 3, Eigen::RowMajor>> rows
 inline std::string reason_against_counts(const std::string& who, std::size_t vertex_count, std::size_t triangle_count) {
   constexpr std::size_t most = std::size_t((std::numeric_limits<int>::max)()) / 3;  // edges have numbers too
   if (vertex_count <= most && triangle_count <= most) return {};
-  return who + ": " + std::to_string(vertex_count) + " vertices and " + std::to_string(triangle_count) + " triangles, and there may be " + std::to_string(most) +
-         " of each; give the numbers of rows, not less than 0, or split the object";
+  return who + ": " + std::to_string(vertex_count) + " vertices and " + std::to_string(triangle_count) + " triangles, and there may be " +
+         std::to_string(most) + " of each; give the numbers of rows, not less than 0, or split the object";
 }
 
 /// What is wrong with arrays of three numbers a row, or nothing.
@@ -35,7 +35,8 @@ inline std::string reason_against_arrays(const std::string& who, const void* ver
 /// What is wrong with vertices in a unit of so many metres, and triangles over them, or nothing.
 /// @param part  which of several it is, as the end of a name
 template <class Scalar, class VertexRows, class IndexRows>
-std::string reason_against_mesh(const std::string& who, const std::string& part, const VertexRows& vertices, const IndexRows& triangles, Scalar scale) {
+std::string reason_against_mesh(const std::string& who, const std::string& part, const VertexRows& vertices, const IndexRows& triangles,
+                                Scalar scale) {
   if (!(scale > Scalar(0) && scale <= (std::numeric_limits<Scalar>::max)()))
     return who + ": the scale is not a positive number; give metres a unit, as 0.001 for millimetres";
   for (Eigen::Index i = 0; i < vertices.rows(); ++i)

@@ -40,7 +40,8 @@ class MeshAssembly {
   }
 
   /// The sentence with which `add` refuses a part; empty where it does not.
-  std::string reason_against(const Points<Scalar>& vertices, const Triangles& triangles, const Pose<Scalar>& pose = {}, Scalar scale = Scalar(1)) const {
+  std::string reason_against(const Points<Scalar>& vertices, const Triangles& triangles, const Pose<Scalar>& pose = {},
+                             Scalar scale = Scalar(1)) const {
     return reason_against_rows(vertices, triangles, pose, scale);
   }
 
@@ -63,9 +64,10 @@ class MeshAssembly {
   std::string reason_against_rows(const VertexRows& vertices, const IndexRows& triangles, const Pose<Scalar>& pose, Scalar scale) const {
     const std::string part = " of part " + std::to_string(part_count());
     if (!pose.is_finite())
-      return "MeshAssembly: the pose" + part + " has a NaN, a number too large to be squared, or a quaternion near zero; give metres, and w = 1 for no rotation";
-    const std::string reason =
-        detail::reason_against_counts("MeshAssembly", std::size_t(vertices_.rows() + vertices.rows()), std::size_t(triangles_.rows() + triangles.rows()));
+      return "MeshAssembly: the pose" + part +
+             " has a NaN, a number too large to be squared, or a quaternion near zero; give metres, and w = 1 for no rotation";
+    const std::string reason = detail::reason_against_counts("MeshAssembly", std::size_t(vertices_.rows() + vertices.rows()),
+                                                             std::size_t(triangles_.rows() + triangles.rows()));
     return reason.empty() ? detail::reason_against_mesh("MeshAssembly", part, vertices, triangles, scale) : reason;
   }
 

@@ -30,9 +30,7 @@ template <class Scalar>
 class Surfaces {
  public:
   explicit Surfaces(const TriangleMesh<Scalar>& mesh)
-      : mesh_(mesh),
-        surface_(std::size_t(mesh.triangle_count()), -1),
-        facing_(std::size_t(mesh.triangle_count()), 0) {
+      : mesh_(mesh), surface_(std::size_t(mesh.triangle_count()), -1), facing_(std::size_t(mesh.triangle_count()), 0) {
     for (int t = 0; t < mesh.triangle_count(); ++t)
       if (surface_[index(t)] < 0 && !is_collapsed(t)) flood(t);
     join_at_shared_edges();
@@ -73,8 +71,7 @@ class Surfaces {
     std::vector<bool> is_cavity(side.size(), false);
     for (std::size_t s = 0; s < side.size(); ++s) {
       if (first_inward[s] < 0) continue;
-      is_cavity[s] =
-          winding(mesh_, result, mesh_.corners(first_inward[s]).col(0).template cast<double>()) > 0;
+      is_cavity[s] = winding(mesh_, result, mesh_.corners(first_inward[s]).col(0).template cast<double>()) > 0;
     }
     for (int t = 0; t < mesh_.triangle_count(); ++t)
       if (surface_[index(t)] >= 0 && is_cavity[index(surface_[index(t)])]) result[index(t)] = 1;
@@ -82,14 +79,12 @@ class Surfaces {
   }
 
   /// The sum of the crossings of a ray from a point, each with the weight of its triangle.
-  static int winding(const TriangleMesh<Scalar>& mesh, const std::vector<std::int8_t>& weights,
-                     const Vector3<double>& point) noexcept {
+  static int winding(const TriangleMesh<Scalar>& mesh, const std::vector<std::int8_t>& weights, const Vector3<double>& point) noexcept {
     Eigen::AlignedBox<double, 3> ray(point);
     (ray.max)().x() = std::numeric_limits<double>::infinity();
     int sum = 0;
     visit_triangles_in(mesh, ray, [&](int t) {
-      if (weights[index(t)] != 0)
-        sum += weights[index(t)] * ray_crossing(point, mesh.corners(t).template cast<double>());
+      if (weights[index(t)] != 0) sum += weights[index(t)] * ray_crossing(point, mesh.corners(t).template cast<double>());
       return true;
     });
     return sum;
@@ -129,8 +124,7 @@ class Surfaces {
       const int t = open.back();
       open.pop_back();
       for (int k = 0; k < 3; ++k) {
-        const int from = mesh_.triangle(t)[index(k)], to = mesh_.triangle(t)[index((k + 1) % 3)],
-                  next = mesh_.topology().neighbour(t, k);
+        const int from = mesh_.triangle(t)[index(k)], to = mesh_.triangle(t)[index((k + 1) % 3)], next = mesh_.topology().neighbour(t, k);
         if (next == MeshTopology::boundary) is_closed_.back() = false;
         if (next == MeshTopology::non_manifold) {
           const int direction = (from < to ? 1 : -1) * facing_[index(t)];
@@ -168,14 +162,11 @@ class Surfaces {
   /// and each surface there.
   template <class Visit>
   void each_passage(const Visit& visit) {
-    const auto key = [this](const SharedEdge& e) {
-      return std::array{e.smaller, e.larger, surface_[index(e.triangle)]};
-    };
+    const auto key = [this](const SharedEdge& e) { return std::array{e.smaller, e.larger, surface_[index(e.triangle)]}; };
     std::sort(shared_.begin(), shared_.end(), [&](const auto& a, const auto& b) { return key(a) < key(b); });
     for (std::size_t begin = 0, end = 0; begin < shared_.size(); begin = end) {
       int direction = 0;
-      for (; end < shared_.size() && key(shared_[end]) == key(shared_[begin]); ++end)
-        direction += shared_[end].direction;
+      for (; end < shared_.size() && key(shared_[end]) == key(shared_[begin]); ++end) direction += shared_[end].direction;
       visit(shared_[begin], int(end - begin), direction);
     }
   }
@@ -212,8 +203,7 @@ class MeshInterior {
   /// @cost  linear in the triangles, allocates; a tenth of what the mesh took, half where most edges have
   /// more than two triangles
   template <RealScalar Scalar>
-  explicit MeshInterior(const TriangleMesh<Scalar>& mesh)
-      : weights_(detail::Surfaces<Scalar>(mesh).weights()) {}
+  explicit MeshInterior(const TriangleMesh<Scalar>& mesh) : weights_(detail::Surfaces<Scalar>(mesh).weights()) {}
 
   /// Whether the mesh encloses anything.
   bool is_empty() const noexcept { return weights_.empty(); }
@@ -231,11 +221,9 @@ class MeshInterior {
   /// enclosed.
   /// @param distance  [m]
   template <RealScalar Scalar>
-  bool encloses(const TriangleMesh<Scalar>& mesh, const Vector3<double>& point,
-                double distance) const noexcept {
+  bool encloses(const TriangleMesh<Scalar>& mesh, const Vector3<double>& point, double distance) const noexcept {
     for (int k = 0; k < 6; ++k) {
-      const Vector3<double> beside =
-          point + (k % 2 == 0 ? distance : -distance) * Vector3<double>::Unit(k / 2);
+      const Vector3<double> beside = point + (k % 2 == 0 ? distance : -distance) * Vector3<double>::Unit(k / 2);
       if (!contains(mesh, beside)) return false;
     }
     return true;

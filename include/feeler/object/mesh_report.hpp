@@ -40,26 +40,18 @@ struct MeshReport {
 
 /// The report as a sentence or two, for a log or a message box.
 inline std::string to_string(const MeshReport& report) {
-  const auto counted = [](int count, const char* one, const char* many) {
-    return std::to_string(count) + " " + (count == 1 ? one : many);
-  };
-  std::string text = counted(report.triangles, "triangle", "triangles") + " on " +
-                     counted(report.vertices, "vertex", "vertices");
-  if (report.welded_vertices > 0)
-    text +=
-        " (" + counted(report.welded_vertices, "repeated vertex was", "repeated vertices were") + " welded)";
+  const auto counted = [](int count, const char* one, const char* many) { return std::to_string(count) + " " + (count == 1 ? one : many); };
+  std::string text = counted(report.triangles, "triangle", "triangles") + " on " + counted(report.vertices, "vertex", "vertices");
+  if (report.welded_vertices > 0) text += " (" + counted(report.welded_vertices, "repeated vertex was", "repeated vertices were") + " welded)";
   text += report.is_closed_manifold() ? "; a closed surface." : "; not a closed surface.";
   std::string rest;
   const auto mention = [&](int count, const char* one, const char* many) {
     if (count > 0) rest += (rest.empty() ? " It has " : ", ") + counted(count, one, many);
   };
   mention(report.boundary_edges, "open edge", "open edges");
-  mention(report.non_manifold_edges, "edge with more than two triangles",
-          "edges with more than two triangles");
-  mention(report.inconsistent_edges, "edge between triangles that face opposite sides",
-          "edges between triangles that face opposite sides");
-  mention(report.non_manifold_vertices, "vertex where separate sheets meet",
-          "vertices where separate sheets meet");
+  mention(report.non_manifold_edges, "edge with more than two triangles", "edges with more than two triangles");
+  mention(report.inconsistent_edges, "edge between triangles that face opposite sides", "edges between triangles that face opposite sides");
+  mention(report.non_manifold_vertices, "vertex where separate sheets meet", "vertices where separate sheets meet");
   mention(report.degenerate_triangles, "triangle without area", "triangles without area");
   mention(report.duplicate_triangles, "duplicate triangle", "duplicate triangles");
   if (!rest.empty()) text += rest + ".";

@@ -35,32 +35,27 @@ enum class Convexity : std::uint8_t {
 class MeshTopology {
  public:
   static constexpr int boundary = detail::boundary_neighbour;  ///< no triangle is across the edge
-  static constexpr int non_manifold =
-      detail::non_manifold_neighbour;  ///< two triangles or more are across the edge
+  static constexpr int non_manifold = detail::non_manifold_neighbour;  ///< two triangles or more are across the edge
 
   MeshTopology() = default;
   /// @param report  receives the counts of edges, duplicates and non-manifold vertices
   /// @cost  linear in the triangles, allocates
   template <RealScalar Scalar>
-  MeshTopology(const std::vector<Vector3<Scalar>>& vertices, const std::vector<std::array<int, 3>>& triangles,
-               MeshReport& report) {
+  MeshTopology(const std::vector<Vector3<Scalar>>& vertices, const std::vector<std::array<int, 3>>& triangles, MeshReport& report) {
     detail::EdgePairing pairing(int(vertices.size()), triangles, report);
     neighbours_ = std::move(pairing.neighbours);
     vertex_neighbour_begin_ = std::move(pairing.vertex_neighbour_begin);
     vertex_neighbours_ = std::move(pairing.vertex_neighbours);
     edge_convexity_.resize(neighbours_.size());
     for (std::size_t t = 0; t < triangles.size(); ++t)
-      for (std::size_t k = 0; k < 3; ++k)
-        edge_convexity_[3 * t + k] = convexity_of(vertices, triangles, int(t), int(k));
+      for (std::size_t k = 0; k < 3; ++k) edge_convexity_[3 * t + k] = convexity_of(vertices, triangles, int(t), int(k));
     summarise_vertices(int(vertices.size()), triangles);
   }
 
   /// The triangle across an edge, or `boundary` or `non_manifold`, which are negative.
   int neighbour(int triangle, int k) const noexcept { return neighbours_[std::size_t(3 * triangle + k)]; }
   /// Never `mixed`.
-  Convexity edge_convexity(int triangle, int k) const noexcept {
-    return edge_convexity_[std::size_t(3 * triangle + k)];
-  }
+  Convexity edge_convexity(int triangle, int k) const noexcept { return edge_convexity_[std::size_t(3 * triangle + k)]; }
   /// `convex` or `concave` if all of the vertex's edges that are not flat are so; `boundary` if one has not
   /// exactly two triangles.
   Convexity vertex_convexity(int vertex) const noexcept { return vertex_convexity_[std::size_t(vertex)]; }
@@ -73,22 +68,18 @@ class MeshTopology {
 
  private:
   template <RealScalar Scalar>
-  Convexity convexity_of(const std::vector<Vector3<Scalar>>& vertices,
-                         const std::vector<std::array<int, 3>>& triangles, int triangle,
+  Convexity convexity_of(const std::vector<Vector3<Scalar>>& vertices, const std::vector<std::array<int, 3>>& triangles, int triangle,
                          int k) const noexcept {
     using Working = WorkingScalar<Scalar>;
     const int other = neighbour(triangle, k);
     if (other == boundary) return Convexity::boundary;
     if (other == non_manifold) return Convexity::non_manifold;
     const auto& corners = triangles[std::size_t(triangle)];
-    const int a = corners[std::size_t(k)], b = corners[std::size_t((k + 1) % 3)],
-              c = corners[std::size_t((k + 2) % 3)];
+    const int a = corners[std::size_t(k)], b = corners[std::size_t((k + 1) % 3)], c = corners[std::size_t((k + 2) % 3)];
     int d = b;
     for (const int corner : triangles[std::size_t(other)])
       if (corner != a && corner != b) d = corner;
-    const auto at = [&vertices](int v) {
-      return Vector3<Working>(vertices[std::size_t(v)].template cast<Working>());
-    };
+    const auto at = [&vertices](int v) { return Vector3<Working>(vertices[std::size_t(v)].template cast<Working>()); };
     const Vector3<Working> along = (at(b) - at(a)).normalized();
     // From the edge into either triangle, perpendicular to the edge.
     const auto inward = [&](int v) {
@@ -101,14 +92,13 @@ class MeshTopology {
     const Working lowest = (std::min)(own_height, across_height);
     if (!(lowest > Working(0)) || normal.isZero()) return Convexity::flat;
     // A corner is known to its rounding, which tilts a low triangle more than a high one.
-    const Working size = (std::max)({at(a).cwiseAbs().maxCoeff(), at(b).cwiseAbs().maxCoeff(),
-                                   at(c).cwiseAbs().maxCoeff(), at(d).cwiseAbs().maxCoeff()});
+    const Working size =
+        (std::max)({at(a).cwiseAbs().maxCoeff(), at(b).cwiseAbs().maxCoeff(), at(c).cwiseAbs().maxCoeff(), at(d).cwiseAbs().maxCoeff()});
     const Working tolerance = 8 * Working(std::numeric_limits<Scalar>::epsilon()) * (1 + size / lowest);
     const Working sine = normal.dot(across) / across_height;
     if (sine > tolerance) return Convexity::concave;
     if (sine < -tolerance) return Convexity::convex;
-    return own.dot(across) > Working(0) ? Convexity::convex
-                                        : Convexity::flat;  // folded back on itself: a knife edge
+    return own.dot(across) > Working(0) ? Convexity::convex : Convexity::flat;  // folded back on itself: a knife edge
   }
 
   void summarise_vertices(int vertex_count, const std::vector<std::array<int, 3>>& triangles) {
@@ -121,8 +111,7 @@ class MeshTopology {
         }
   }
   static Convexity together(Convexity vertex, Convexity edge) noexcept {
-    if (vertex == Convexity::boundary || edge == Convexity::boundary || edge == Convexity::non_manifold)
-      return Convexity::boundary;
+    if (vertex == Convexity::boundary || edge == Convexity::boundary || edge == Convexity::non_manifold) return Convexity::boundary;
     if (edge == Convexity::flat || vertex == edge) return vertex;
     return vertex == Convexity::flat ? edge : Convexity::mixed;
   }

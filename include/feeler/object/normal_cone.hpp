@@ -17,8 +17,8 @@ namespace detail {
 /// direction · b ≤ tolerance for the unit vector b from an edge into a triangle, perpendicular to the edge;
 /// true if there is no such vector.
 template <RealScalar Scalar>
-bool points_away(const Vector3<Scalar>& start, const Vector3<Scalar>& end, const Vector3<Scalar>& opposite,
-                 const Vector3<Scalar>& direction, const Scalar& tolerance) noexcept {
+bool points_away(const Vector3<Scalar>& start, const Vector3<Scalar>& end, const Vector3<Scalar>& opposite, const Vector3<Scalar>& direction,
+                 const Scalar& tolerance) noexcept {
   using std::sqrt;
   const Vector3<Scalar> along = end - start;
   Vector3<Scalar> inward = opposite - start;
@@ -72,12 +72,11 @@ bool neighbours_point_away(const TriangleMesh<Scalar>& mesh, int triangle, int c
 /// @param tolerance  sine by which the direction may leave the cone
 /// @cost  noexcept, no allocation
 template <RealScalar Scalar>
-bool edge_cone_contains(const TriangleMesh<Scalar>& mesh, int triangle, int k,
-                        const Vector3<Scalar>& direction, const Scalar& tolerance) noexcept {
+bool edge_cone_contains(const TriangleMesh<Scalar>& mesh, int triangle, int k, const Vector3<Scalar>& direction, const Scalar& tolerance) noexcept {
   const std::array<int, 3>& corners = mesh.triangle(triangle);
   const int start = corners[std::size_t(k)], end = corners[std::size_t((k + 1) % 3)];
-  const bool is_own_away = detail::points_away<Scalar>(mesh.vertex(start), mesh.vertex(end),
-                                                      mesh.vertex(corners[std::size_t((k + 2) % 3)]), direction, tolerance);
+  const bool is_own_away =
+      detail::points_away<Scalar>(mesh.vertex(start), mesh.vertex(end), mesh.vertex(corners[std::size_t((k + 2) % 3)]), direction, tolerance);
   return is_own_away && neighbour_points_away(mesh, triangle, k, direction, tolerance);
 }
 
@@ -90,8 +89,7 @@ bool edge_cone_contains(const TriangleMesh<Scalar>& mesh, int triangle, int k,
 /// @param tolerance  sine by which the direction may leave the cone
 /// @cost  noexcept, no allocation, at most `max_cone_valence` dot products and square roots
 template <RealScalar Scalar>
-bool vertex_cone_contains(const TriangleMesh<Scalar>& mesh, int vertex, const Vector3<Scalar>& direction,
-                          const Scalar& tolerance) noexcept {
+bool vertex_cone_contains(const TriangleMesh<Scalar>& mesh, int vertex, const Vector3<Scalar>& direction, const Scalar& tolerance) noexcept {
   using std::sqrt;
   const auto neighbours = mesh.topology().vertex_neighbours(vertex);
   if (int(neighbours.size()) > max_cone_valence) return true;

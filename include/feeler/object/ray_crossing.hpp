@@ -12,26 +12,20 @@ namespace feeler {
 
 namespace detail {
 
-constexpr int sign_of(double x) noexcept {
-  return x > 0 ? 1 : x < 0 ? -1 : 0;
-}
+constexpr int sign_of(double x) noexcept { return x > 0 ? 1 : x < 0 ? -1 : 0; }
 
 /// On which side of the line from u to v a point p lies in the plane of y and z: 1 on the left. Where it is
 /// on the line, that of a point that is off by less than any number in y, and by less than that in z; 0 only
 /// where the line is a point there.
-inline int side_of_line(const Vector3<double>& u, const Vector3<double>& v,
-                        const Vector3<double>& p) noexcept {
+inline int side_of_line(const Vector3<double>& u, const Vector3<double>& v, const Vector3<double>& p) noexcept {
   const double left = (v.y() - u.y()) * (p.z() - u.z()), right = (v.z() - u.z()) * (p.y() - u.y());
-  if (std::abs(left - right) >
-      4 * std::numeric_limits<double>::epsilon() * (std::abs(left) + std::abs(right)))
-    return sign_of(left - right);
+  if (std::abs(left - right) > 4 * std::numeric_limits<double>::epsilon() * (std::abs(left) + std::abs(right))) return sign_of(left - right);
   const auto parts = [](double a, double b) {
     const TwoParts two = TwoParts::difference(a, b);
     return std::array{two.high, two.low};
   };
   ExactSum<17> sum;
-  const auto add_product = [&sum](const std::array<double, 2>& a, const std::array<double, 2>& b,
-                                  double sign) {
+  const auto add_product = [&sum](const std::array<double, 2>& a, const std::array<double, 2>& b, double sign) {
     for (const double x : a) {
       for (const double y : b) {
         const TwoParts product = TwoParts::product(sign * x, y);

@@ -127,8 +127,7 @@ class TriangleMesh {
     vertices_.shrink_to_fit();
     triangles_.resize(std::size_t(triangles.rows()));
     for (std::size_t i = 0; i < triangles_.size(); ++i)
-      for (std::size_t k = 0; k < 3; ++k)
-        triangles_[i][k] = number[std::size_t(triangles(Eigen::Index(i), Eigen::Index(k)))];
+      for (std::size_t k = 0; k < 3; ++k) triangles_[i][k] = number[std::size_t(triangles(Eigen::Index(i), Eigen::Index(k)))];
   }
 
   std::vector<Vector3<Scalar>> vertices_;

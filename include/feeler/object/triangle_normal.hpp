@@ -17,13 +17,11 @@ namespace feeler {
 /// triangles under- or overflow.
 /// @cost  noexcept, no allocation; two square roots
 template <RealScalar Scalar>
-Vector3<Scalar> triangle_normal(const Vector3<Scalar>& a, const Vector3<Scalar>& b,
-                                const Vector3<Scalar>& c) noexcept {
+Vector3<Scalar> triangle_normal(const Vector3<Scalar>& a, const Vector3<Scalar>& b, const Vector3<Scalar>& c) noexcept {
   using std::sqrt;
   using Working = WorkingScalar<Scalar>;
   using Wide = Vector3<Working>;
-  const Wide sides[3] = {b.template cast<Working>() - a.template cast<Working>(),
-                         c.template cast<Working>() - b.template cast<Working>(),
+  const Wide sides[3] = {b.template cast<Working>() - a.template cast<Working>(), c.template cast<Working>() - b.template cast<Working>(),
                          a.template cast<Working>() - c.template cast<Working>()};
   Working lengths[3];
   int longest = 0;

@@ -17,8 +17,7 @@ namespace feeler {
 /// @param box  world axes [m]
 /// @cost  noexcept, no allocation, O(log n) for each triangle visited
 template <class Scalar, class MeshScalar, class Visit>
-void visit_triangles_in(const TriangleMesh<MeshScalar>& mesh, const Eigen::AlignedBox<Scalar, 3>& box,
-                        const Visit& visit) noexcept {
+void visit_triangles_in(const TriangleMesh<MeshScalar>& mesh, const Eigen::AlignedBox<Scalar, 3>& box, const Visit& visit) noexcept {
   // Boxes of the hierarchy are float and relative to its origin.
   const Vector3<Scalar> origin = mesh.bvh().origin().template cast<Scalar>();
   std::array<float, 3> lower, upper;

@@ -16,8 +16,7 @@ template <RealScalar Scalar>
 class VertexWeld {
  public:
   /// @param expected_count  of positions to come
-  explicit VertexWeld(std::size_t expected_count)
-      : slots_(std::bit_ceil(expected_count * 2 + 2), -1), mask_(slots_.size() - 1) {}
+  explicit VertexWeld(std::size_t expected_count) : slots_(std::bit_ceil(expected_count * 2 + 2), -1), mask_(slots_.size() - 1) {}
 
   /// The number of a position. @cost constant, expected
   int number(const Vector3<Scalar>& position) {

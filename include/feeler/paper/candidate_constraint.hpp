@@ -39,9 +39,8 @@ Vector3<Scalar> out_of_ridge(const TriangleMesh<MeshScalar>& mesh, int triangle,
 /// The inequality of a constraint at a pose, as a row; `room` is how far inside both features the contact is, negative outside [m].
 /// @param pose  of the tool frame; the row's arm is relative to `reference_world` [m]
 template <ConvexTool Tool, class MeshScalar>
-ContactRow<typename Tool::Scalar> row_of(const CandidateConstraint& constraint, const Tool& tool,
-                                         const TriangleMesh<MeshScalar>& mesh, const Pose<typename Tool::Scalar>& pose,
-                                         const Vector3<typename Tool::Scalar>& reference_world) noexcept {
+ContactRow<typename Tool::Scalar> row_of(const CandidateConstraint& constraint, const Tool& tool, const TriangleMesh<MeshScalar>& mesh,
+                                         const Pose<typename Tool::Scalar>& pose, const Vector3<typename Tool::Scalar>& reference_world) noexcept {
   using Scalar = typename Tool::Scalar;
   using Vector = Vector3<Scalar>;
   const Matrix3<Scalar> corners = mesh.corners(constraint.triangle).template cast<Scalar>();

@@ -130,8 +130,7 @@ class CandidateContactsFollower {
           active_ = solution.active;
           return true;
         }
-        const auto result =
-            certificate_.certify(scene, pose_, motion, tick.work, tick.work + scene.settings().work_budget);
+        const auto result = certificate_.certify(scene, pose_, motion, tick.work, tick.work + scene.settings().work_budget);
         if (!result.blockers.empty()) is_new = regions_.admit(scene, pose_, result, dropped_) || is_new;
         const Pose<Scalar> reached = moved(pose_, motion * (result.is_exhausted ? Scalar(0) : result.time));
         const bool is_there = result.is_whole();

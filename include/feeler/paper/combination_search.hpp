@@ -48,9 +48,7 @@ class CombinationSearch {
     bool is_on_features = true; ///< its contacts lie on the features that they are between
 
     /// Those on their features first, and of them the nearest to the haptic pose.
-    bool operator<(const Solution& other) const noexcept {
-      return is_on_features != other.is_on_features ? is_on_features : energy < other.energy;
-    }
+    bool operator<(const Solution& other) const noexcept { return is_on_features != other.is_on_features ? is_on_features : energy < other.energy; }
   };
 
   /// Between which poses solutions are looked for.

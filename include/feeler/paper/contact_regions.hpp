@@ -79,9 +79,8 @@ class ContactRegions {
     const Pose<Scalar> frame = scene.tool_frame(pose);
     bool is_new = false;
     for (const auto& blocker : result.blockers) {
-      const bool is_known = std::any_of(regions_.begin(), regions_.end(), [&](const Contact& region) {
-        return contains(ring(scene, region.triangle), blocker.triangle);
-      });
+      const bool is_known = std::any_of(regions_.begin(), regions_.end(),
+                                        [&](const Contact& region) { return contains(ring(scene, region.triangle), blocker.triangle); });
       if (is_known) continue;
       Contact contact;
       separation_from(scene, blocker.triangle, frame, contact);
@@ -112,9 +111,7 @@ class ContactRegions {
 
   static std::size_t index(int i) noexcept { return std::size_t(i); }
 
-  static auto ring(const Scene& scene, int triangle) noexcept {
-    return LocalSearch<Tool, MeshScalar>::ring(scene.object(), triangle);
-  }
+  static auto ring(const Scene& scene, int triangle) noexcept { return LocalSearch<Tool, MeshScalar>::ring(scene.object(), triangle); }
   template <class Triangles>
   static bool contains(const Triangles& triangles, int triangle) noexcept {
     return std::find(triangles.begin(), triangles.end(), triangle) != triangles.end();
@@ -122,8 +119,7 @@ class ContactRegions {
 
   /// Of some triangles, as below, the least separation and the contact there; infinity, and the contact as it was, where there is none.
   template <class Triangles>
-  static Scalar separation_from_nearest(const Scene& scene, const Triangles& triangles, const Pose<Scalar>& frame,
-                                        Contact& nearest) noexcept {
+  static Scalar separation_from_nearest(const Scene& scene, const Triangles& triangles, const Pose<Scalar>& frame, Contact& nearest) noexcept {
     Scalar least = std::numeric_limits<Scalar>::infinity();
     for (const int triangle : triangles) {
       Contact contact;

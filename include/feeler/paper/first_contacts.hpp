@@ -46,8 +46,7 @@ FirstContact<Scalar> vertex_on_triangle(int tool_vertex, int triangle, const Vec
 /// @param from, to  poses of the tool frame
 /// @return a contact with `triangle` −1 if no vertex crosses any
 template <ConvexTool Tool, class MeshScalar>
-FirstContact<typename Tool::Scalar> first_vertex_hit(const Tool& tool, const TriangleMesh<MeshScalar>& mesh,
-                                                     const Pose<typename Tool::Scalar>& from,
+FirstContact<typename Tool::Scalar> first_vertex_hit(const Tool& tool, const TriangleMesh<MeshScalar>& mesh, const Pose<typename Tool::Scalar>& from,
                                                      const Pose<typename Tool::Scalar>& to) noexcept {
   using Scalar = typename Tool::Scalar;
   using Vector = Vector3<Scalar>;
@@ -96,8 +95,7 @@ struct OverlappedTriangles {
 /// @param touching_distance  see `gjk` [m]
 /// @cost noexcept, no allocation; a distance query for every triangle in the tool's bounding box
 template <ConvexTool Tool, class MeshScalar>
-OverlappedTriangles overlapped_triangles(const Tool& tool, const TriangleMesh<MeshScalar>& mesh,
-                                         const Pose<typename Tool::Scalar>& pose,
+OverlappedTriangles overlapped_triangles(const Tool& tool, const TriangleMesh<MeshScalar>& mesh, const Pose<typename Tool::Scalar>& pose,
                                          typename Tool::Scalar touching_distance) noexcept {
   using Scalar = typename Tool::Scalar;
   OverlappedTriangles found;

@@ -66,9 +66,8 @@ class LocalSearch {
         const int other = mesh.topology().neighbour(result[i], k);
         if (other < 0 || std::find(result.begin(), result.end(), other) != result.end()) continue;
         const auto& theirs = mesh.triangle(other);
-        const bool shares = std::any_of(theirs.begin(), theirs.end(), [&](int v) {
-          return std::find(corners.begin(), corners.end(), v) != corners.end();
-        });
+        const bool shares =
+            std::any_of(theirs.begin(), theirs.end(), [&](int v) { return std::find(corners.begin(), corners.end(), v) != corners.end(); });
         if (shares && !result.push_back(other)) return result;
       }
     }
@@ -97,9 +96,7 @@ class LocalSearch {
   };
 
   static std::size_t index(int i) noexcept { return std::size_t(i); }
-  Vector corner(int triangle, int k) const noexcept {
-    return mesh_.vertex(mesh_.triangle(triangle)[index(k)]).template cast<Scalar>();
-  }
+  Vector corner(int triangle, int k) const noexcept { return mesh_.vertex(mesh_.triangle(triangle)[index(k)]).template cast<Scalar>(); }
   Vector tool_vertex(int i) const noexcept { return pose_ * tool_.vertex(i); }
   Vector outward(int triangle) const noexcept {
     const Vector normal = mesh_.normal(triangle).template cast<Scalar>();
@@ -116,9 +113,7 @@ class LocalSearch {
     if (!is_behind_ || given == Convexity::flat || given == Convexity::mixed) return given;
     return given == Convexity::convex ? Convexity::concave : Convexity::convex;
   }
-  Convexity edge_convexity(int triangle, int k) const noexcept {
-    return convexity(mesh_.topology().edge_convexity(triangle, k));
-  }
+  Convexity edge_convexity(int triangle, int k) const noexcept { return convexity(mesh_.topology().edge_convexity(triangle, k)); }
 
   void gather_tool_neighbours(const FirstContact<Scalar>& contact) noexcept {
     near_.clear();
@@ -147,8 +142,7 @@ class LocalSearch {
       if (normal.isZero()) continue;
       const Vector point = corner(ring_[i], 0);
       auto same = std::find_if(planes_.begin(), planes_.end(), [&](const Plane& plane) {
-        return (plane.normal - normal).squaredNorm() < parallel * parallel &&
-               abs(plane.normal.dot(point - plane.point)) < Scalar(1e-9);
+        return (plane.normal - normal).squaredNorm() < parallel * parallel && abs(plane.normal.dot(point - plane.point)) < Scalar(1e-9);
       });
       if (same == planes_.end()) {
         if (!planes_.push_back({ring_[i], normal, point, 0})) {

@@ -40,8 +40,7 @@ class StepCoordinates {
       return moved(base_, Twist<Scalar>::from_vector(step));
     } else {
       const Vector3<Scalar> angles = angles_ + step.template tail<3>();
-      return {base_.translation + step.template head<3>(),
-              (about(2, angles[2]) * about(1, angles[1]) * about(0, angles[0])).normalized()};
+      return {base_.translation + step.template head<3>(), (about(2, angles[2]) * about(1, angles[1]) * about(0, angles[0])).normalized()};
     }
   }
 

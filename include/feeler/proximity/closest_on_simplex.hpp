@@ -54,8 +54,7 @@ std::array<Scalar, 3> closest_on_segment(const Vector3<Scalar>& a, const Vector3
 
 /// The same for the edges of a triangle: all there is of one without area.
 template <class Scalar>
-std::array<Scalar, 3> closest_on_edges(const Vector3<Scalar>& a, const Vector3<Scalar>& b,
-                                       const Vector3<Scalar>& c) noexcept {
+std::array<Scalar, 3> closest_on_edges(const Vector3<Scalar>& a, const Vector3<Scalar>& b, const Vector3<Scalar>& c) noexcept {
   const auto ab = closest_on_segment(a, b), bc = closest_on_segment(b, c), ca = closest_on_segment(c, a);
   const Scalar on_ab = (ab[0] * a + ab[1] * b).squaredNorm();
   const Scalar on_bc = (bc[0] * b + bc[1] * c).squaredNorm();
@@ -67,9 +66,7 @@ std::array<Scalar, 3> closest_on_edges(const Vector3<Scalar>& a, const Vector3<S
 
 /// The same for a triangle, by its Voronoi regions (C. Ericson, "Real-Time Collision Detection", section 5.1.5).
 template <class Scalar>
-FEELER_FLATTEN
-std::array<Scalar, 3> closest_on_triangle(const Vector3<Scalar>& a, const Vector3<Scalar>& b,
-                                          const Vector3<Scalar>& c) noexcept {
+FEELER_FLATTEN std::array<Scalar, 3> closest_on_triangle(const Vector3<Scalar>& a, const Vector3<Scalar>& b, const Vector3<Scalar>& c) noexcept {
   const Vector3<Scalar> ab = b - a;
   const Vector3<Scalar> ac = c - a;
   const Scalar d1 = -ab.dot(a), d2 = -ac.dot(a);
@@ -103,20 +100,15 @@ std::array<Scalar, 3> closest_on_triangle(const Vector3<Scalar>& a, const Vector
 /// All faces are searched. That without the newest point, the last, has the origin on its far side only where the three points
 /// were flat or a start from old features had not reduced them, but then it alone tells that the origin is outside.
 template <class Scalar>
-FEELER_FLATTEN
-bool reduce_to_closest(Simplex<Scalar>& simplex) noexcept {
+FEELER_FLATTEN bool reduce_to_closest(Simplex<Scalar>& simplex) noexcept {
   const auto& p = simplex.points;
   switch (simplex.size) {
     case 1:
       simplex.weights[0] = Scalar(1);
       simplex.closest = p[0];
       return true;
-    case 2:
-      simplex.keep({0, 1, 1}, closest_on_segment(p[0], p[1]));
-      return true;
-    case 3:
-      simplex.keep({0, 1, 2}, closest_on_triangle(p[0], p[1], p[2]));
-      return true;
+    case 2: simplex.keep({0, 1, 1}, closest_on_segment(p[0], p[1])); return true;
+    case 3: simplex.keep({0, 1, 2}, closest_on_triangle(p[0], p[1], p[2])); return true;
     default: break;
   }
   constexpr std::array<std::array<int, 4>, 4> faces{{{0, 1, 3, 2}, {1, 2, 3, 0}, {0, 2, 3, 1}, {0, 1, 2, 3}}};

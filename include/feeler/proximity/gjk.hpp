@@ -211,10 +211,8 @@ ClosestPoints<typename Tool::Scalar> closest_to_large(const Tool& tool, const Ma
 /// @param touching_distance  below it the shapes count as touching [m]
 /// @cost  noexcept, no allocation, at most 32 support calls, mostly 2 to 5; of a large triangle twice that
 template <ConvexTool Tool>
-FEELER_FLATTEN
-ClosestPoints<typename Tool::Scalar> gjk(const Tool& tool, const Matrix3<typename Tool::Scalar>& triangle,
-                                         const WitnessFeatures& warm,
-                                         typename Tool::Scalar touching_distance) noexcept {
+FEELER_FLATTEN ClosestPoints<typename Tool::Scalar> gjk(const Tool& tool, const Matrix3<typename Tool::Scalar>& triangle, const WitnessFeatures& warm,
+                                                        typename Tool::Scalar touching_distance) noexcept {
   using Scalar = typename Tool::Scalar;
   auto answer = detail::run_gjk(tool, detail::WholeTriangle<Scalar>{triangle}, warm, touching_distance);
   ClosestPoints<Scalar>& result = answer.closest;
@@ -237,10 +235,8 @@ ClosestPoints<typename Tool::Scalar> gjk(const Tool& tool, const Matrix3<typenam
 /// overlaps the triangle. The algorithm compares squares, so that at a distance it knows the direction to √ε only, which a large triangle
 /// makes into nanometres: where the triangle's own plane shows as much distance, it is taken.
 template <SweptTool Tool>
-FEELER_FLATTEN
-ClosestPoints<typename Tool::Scalar> gjk(const Tool& tool, const Matrix3<typename Tool::Scalar>& triangle,
-                                         const WitnessFeatures& warm,
-                                         typename Tool::Scalar touching_distance) noexcept {
+FEELER_FLATTEN ClosestPoints<typename Tool::Scalar> gjk(const Tool& tool, const Matrix3<typename Tool::Scalar>& triangle, const WitnessFeatures& warm,
+                                                        typename Tool::Scalar touching_distance) noexcept {
   using Scalar = typename Tool::Scalar;
   auto closest = gjk(tool.core(), triangle, warm, touching_distance);
   const Vector3<Scalar> across = Vector3<Scalar>(triangle.col(1) - triangle.col(0)).cross(Vector3<Scalar>(triangle.col(2) - triangle.col(0)));

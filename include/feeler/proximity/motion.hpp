@@ -31,8 +31,8 @@ typename Tool::Scalar lowest_above(const Tool& tool, const Vector3<typename Tool
 
 /// The same, found from a vertex near it, as `highest_along` has it.
 template <ConvexTool Tool>
-typename Tool::Scalar lowest_above(const Tool& tool, const Vector3<typename Tool::Scalar>& point,
-                                   const Vector3<typename Tool::Scalar>& normal, int& vertex) noexcept {
+typename Tool::Scalar lowest_above(const Tool& tool, const Vector3<typename Tool::Scalar>& point, const Vector3<typename Tool::Scalar>& normal,
+                                   int& vertex) noexcept {
   return -highest_along(tool, Vector3<typename Tool::Scalar>(-normal), vertex) - normal.dot(point);
 }
 
@@ -58,10 +58,15 @@ class MovingTool {
   /// @param reference  the reference point in the tool frame [m]
   /// @param radius     `radius_about(tool, reference)`
   /// @param pose       pose whose translation is the reference point in the world [m]
-  MovingTool(const Tool& tool, const Vector& reference, Scalar radius, const Pose<Scalar>& pose,
-             const Twist<Scalar>& motion) noexcept
-      : tool_(tool), reference_(reference), radius_(radius), pose_(pose), motion_(motion),
-        angle_(motion.angular.norm()), distance_(motion.linear.norm()), turning_(longest_turn()) {}
+  MovingTool(const Tool& tool, const Vector& reference, Scalar radius, const Pose<Scalar>& pose, const Twist<Scalar>& motion) noexcept
+      : tool_(tool),
+        reference_(reference),
+        radius_(radius),
+        pose_(pose),
+        motion_(motion),
+        angle_(motion.angular.norm()),
+        distance_(motion.linear.norm()),
+        turning_(longest_turn()) {}
 
   const Tool& tool() const noexcept { return tool_; }
   /// At the start; its translation is the reference point.
@@ -77,9 +82,7 @@ class MovingTool {
   bool is_still() const noexcept { return !(distance_ > Scalar(0)) && !(angle_ > Scalar(0)); }
 
   Pose<Scalar> pose_at(Scalar time) const noexcept { return moved(pose_, motion_ * time); }
-  Frame frame_at(Scalar time) const noexcept {
-    return {time, pose_at(time).rotation.toRotationMatrix(), time * motion_.linear};
-  }
+  Frame frame_at(Scalar time) const noexcept { return {time, pose_at(time).rotation.toRotationMatrix(), time * motion_.linear}; }
   /// At time 0, to the last bit where the pose is: a motion that begins where another ended has its last frame.
   Frame frame_at_start() const noexcept { return {Scalar(0), pose_.rotation.toRotationMatrix(), Vector::Zero()}; }
 
@@ -87,9 +90,7 @@ class MovingTool {
   Matrix3<Scalar> in_tool(const Matrix3<Scalar>& corners, const Frame& frame) const noexcept {
     return (frame.rotation.transpose() * (corners.colwise() - frame.shift)).colwise() + reference_;
   }
-  Vector to_world(const Vector& point_tool, const Frame& frame) const noexcept {
-    return frame.rotation * (point_tool - reference_) + frame.shift;
-  }
+  Vector to_world(const Vector& point_tool, const Frame& frame) const noexcept { return frame.rotation * (point_tool - reference_) + frame.shift; }
 
   /// Least height of the tool along a world normal: min n·x over its points x, relative to `origin()` [m].
   Scalar lowest(const Vector& normal, const Frame& frame) const noexcept {
@@ -104,9 +105,7 @@ class MovingTool {
     return lowest_in_tool(sign * frame.rotation.row(axis).transpose()) + sign * frame.shift[axis] - swept_radius(tool_);
   }
   /// Least height of the tool, or of its core, above its reference point along any vector in the tool frame [m].
-  Scalar lowest_in_tool(const Vector& normal_tool) const noexcept {
-    return lowest_above(tool_, reference_, normal_tool);
-  }
+  Scalar lowest_in_tool(const Vector& normal_tool) const noexcept { return lowest_above(tool_, reference_, normal_tool); }
 
   /// Bound on how far a tool point strays from its chord along a fixed world normal over a part of the motion [m].
   ///
@@ -138,9 +137,7 @@ class MovingTool {
     if constexpr (symmetry_of<Tool> == Symmetry::none) {
       return angle_ * radius_;
     } else {
-      const auto turn_of = [this](int i) {
-        return motion_.angular.cross(pose_.rotation * Vector(tool_.vertex(i) - reference_)).norm();
-      };
+      const auto turn_of = [this](int i) { return motion_.angular.cross(pose_.rotation * Vector(tool_.vertex(i) - reference_)).norm(); };
       return symmetry_of<Tool> == Symmetry::about_axis ? (std::max)(turn_of(0), turn_of(1)) : turn_of(0);
     }
   }

@@ -32,7 +32,10 @@ class PartedLeaves {
   /// @param capacity       leaves
   /// @param worth_keeping  triangles that a motion comes to, from which on a front is kept as long as it pays; 0 for ever
   explicit PartedLeaves(int capacity = 0, int worth_keeping = 64)
-      : leaves_(std::size_t(capacity)), bad_(std::size_t(capacity) + 1), notes_(BvhLeaf::width * std::size_t(capacity)), worth_keeping_(std::size_t(worth_keeping)) {}
+      : leaves_(std::size_t(capacity)),
+        bad_(std::size_t(capacity) + 1),
+        notes_(BvhLeaf::width * std::size_t(capacity)),
+        worth_keeping_(std::size_t(worth_keeping)) {}
 
   /// As it was made.
   void clear() noexcept {
@@ -57,8 +60,10 @@ class PartedLeaves {
     follow(moving);
     take_notes();
     const auto float_of = [](const Scalar& x) { return static_cast<float>(x); };
-    const Vector3<float> start = Vector3<Scalar>(moving.origin() - reference_).template cast<float>(), way = moving.motion().linear.template cast<float>();
-    const float needed = above(float_of(kept) + float_of(turned_ + moving.turning()) + rounding(float_of(moving.radius()) + start.norm() + way.norm()));
+    const Vector3<float> start = Vector3<Scalar>(moving.origin() - reference_).template cast<float>(),
+                         way = moving.motion().linear.template cast<float>();
+    const float needed =
+        above(float_of(kept) + float_of(turned_ + moving.turning()) + rounding(float_of(moving.radius()) + start.norm() + way.norm()));
     std::size_t count = 0;
     for (std::size_t l = 0; l < count_; ++l) {
       Leaf& leaf = leaves_[l];
@@ -117,9 +122,9 @@ class PartedLeaves {
   static constexpr unsigned all_lanes = (1U << width) - 1U;
   static constexpr std::size_t place_count = 1024;
   static constexpr int most_age = 3;  // motions since it was asked for
-  static constexpr int price = 6;     // of a note, in triangles that need not be looked at
-  static constexpr int trial = 3;     // motions after which it must have paid
-  static constexpr int pause = 128;   // motions without a front where it has not
+  static constexpr int price = 6;  // of a note, in triangles that need not be looked at
+  static constexpr int trial = 3;  // motions after which it must have paid
+  static constexpr int pause = 128;  // motions without a front where it has not
 
   struct Leaf {
     alignas(16) std::array<std::array<float, width>, 3> normal;
@@ -162,7 +167,8 @@ class PartedLeaves {
   }
   /// Where a leaf is, or would be.
   std::size_t place_of(std::int32_t leaf) const noexcept {
-    const auto at = std::lower_bound(leaves_.begin(), leaves_.begin() + std::ptrdiff_t(count_), leaf, [](const Leaf& a, std::int32_t b) { return a.leaf < b; });
+    const auto at =
+        std::lower_bound(leaves_.begin(), leaves_.begin() + std::ptrdiff_t(count_), leaf, [](const Leaf& a, std::int32_t b) { return a.leaf < b; });
     return std::size_t(at - leaves_.begin());
   }
 
@@ -183,9 +189,8 @@ class PartedLeaves {
   /// Merges the notes with the leaves, from the last to the first.
   void take_notes() noexcept {
     const auto notes = notes_.begin();
-    std::sort(notes, notes + std::ptrdiff_t(note_count_), [](const Note& a, const Note& b) {
-      return std::tie(a.leaf, a.lane, a.room) < std::tie(b.leaf, b.lane, b.room);
-    });
+    std::sort(notes, notes + std::ptrdiff_t(note_count_),
+              [](const Note& a, const Note& b) { return std::tie(a.leaf, a.lane, a.room) < std::tie(b.leaf, b.lane, b.room); });
     std::size_t old = count_;
     count_ += new_leaves();
     for (std::size_t at = count_, n = note_count_; n > 0;) {
@@ -221,12 +226,13 @@ class PartedLeaves {
   static Leaf without_planes(const Note& note) noexcept {
     Leaf leaf{};
     leaf.leaf = note.leaf;
-    for (std::size_t i = 0; i < width; ++i) leaf.room[i] = ((note.lanes >> i) & 1U) != 0 ? -std::numeric_limits<float>::infinity() : std::numeric_limits<float>::infinity();
+    for (std::size_t i = 0; i < width; ++i)
+      leaf.room[i] = ((note.lanes >> i) & 1U) != 0 ? -std::numeric_limits<float>::infinity() : std::numeric_limits<float>::infinity();
     return leaf;
   }
 
   std::vector<Leaf> leaves_;  // by number
-  std::vector<int> bad_;      // of the leaves before each, those that are not parted
+  std::vector<int> bad_;  // of the leaves before each, those that are not parted
   std::array<std::int16_t, place_count> places_{};  // in which leaves were last found, by their number
   std::vector<Note> notes_;
   std::size_t worth_keeping_;
@@ -235,7 +241,7 @@ class PartedLeaves {
   int gain_ = 0, motions_ = 0, paused_ = 0;
   bool is_kept_ = false;
   Quaternion<Scalar> rotation_ = Quaternion<Scalar>::Identity();  // of the tool at the last motion
-  Vector3<Scalar> origin_ = Vector3<Scalar>::Zero();              // then
+  Vector3<Scalar> origin_ = Vector3<Scalar>::Zero();  // then
   Vector3<Scalar> reference_ = Vector3<Scalar>::Zero();
   Scalar turned_ = Scalar(0);  // bound on how far a point has turned since the reference was set [m]
 };

@@ -55,12 +55,10 @@ struct HeldPart {
 /// Part of [from, to] over which one plane certainly holds, fixed to the world or to the tool, whichever is more.
 /// `plane` is given at the frame `at`, which is one end; `required` is subtracted from its slack.
 template <ConvexTool Tool>
-FEELER_FLATTEN
-HeldPart<typename Tool::Scalar> held_part(const MovingTool<Tool>& moving, const Matrix3<typename Tool::Scalar>& corners,
-                                          const HeldPlane<typename Tool::Scalar>& plane,
-                                          const MotionFrame<typename Tool::Scalar>& at,
-                                          const MotionFrame<typename Tool::Scalar>& other, typename Tool::Scalar required,
-                                          bool at_is_start) noexcept {
+FEELER_FLATTEN HeldPart<typename Tool::Scalar> held_part(const MovingTool<Tool>& moving, const Matrix3<typename Tool::Scalar>& corners,
+                                                         const HeldPlane<typename Tool::Scalar>& plane, const MotionFrame<typename Tool::Scalar>& at,
+                                                         const MotionFrame<typename Tool::Scalar>& other, typename Tool::Scalar required,
+                                                         bool at_is_start) noexcept {
   using Scalar = typename Tool::Scalar;
   using std::sqrt;
   const Scalar duration = other.time - at.time;
@@ -70,7 +68,7 @@ HeldPart<typename Tool::Scalar> held_part(const MovingTool<Tool>& moving, const 
   const Scalar height = plane.slack + highest_corner(corners, plane.normal) - plane.normal.dot(at.shift);
   const Scalar there_tool = height + turned.dot(other.shift) - highest_corner(corners, turned) - required;
   const Scalar reach = sqrt((std::max)((corners.colwise() - at.shift).colwise().squaredNorm().maxCoeff(),
-                                     (corners.colwise() - other.shift).colwise().squaredNorm().maxCoeff()));
+                                       (corners.colwise() - other.shift).colwise().squaredNorm().maxCoeff()));
   const Scalar sagitta_tool = moving.sagitta_of_object(plane.normal, duration, reach);
   const Scalar part_tool = at_is_start ? first_root(here, there_tool, sagitta_tool) : first_root(there_tool, here, sagitta_tool);
   if (!(part_tool < Scalar(1))) return {Scalar(1), true};
@@ -92,11 +90,10 @@ namespace detail {
 /// and b₂ = n₁·(x₁ − y); each has its minimum over the tool at one support point. Less the sagitta g of the chords, 4g t(1 − t), it
 /// stays positive where b₁ − 2g > −√(b₀b₂).
 template <ConvexTool Tool>
-FEELER_FLATTEN
-bool turning_plane_holds(const MovingTool<Tool>& moving, const Matrix3<typename Tool::Scalar>& corners,
-                         const HeldPlane<typename Tool::Scalar>& first, const MotionFrame<typename Tool::Scalar>& start,
-                         const HeldPlane<typename Tool::Scalar>& last, const MotionFrame<typename Tool::Scalar>& end,
-                         typename Tool::Scalar required) noexcept {
+FEELER_FLATTEN bool turning_plane_holds(const MovingTool<Tool>& moving, const Matrix3<typename Tool::Scalar>& corners,
+                                        const HeldPlane<typename Tool::Scalar>& first, const MotionFrame<typename Tool::Scalar>& start,
+                                        const HeldPlane<typename Tool::Scalar>& last, const MotionFrame<typename Tool::Scalar>& end,
+                                        typename Tool::Scalar required) noexcept {
   using Scalar = typename Tool::Scalar;
   using std::sqrt;
   const Scalar b0 = first.slack - required;
@@ -125,13 +122,11 @@ bool turning_plane_holds(const MovingTool<Tool>& moving, const Matrix3<typename 
 /// @param limit   value of `work` at which it ends with what it has: some queries more at most
 /// @cost  0 queries for a plane that holds, 1 to 4 as a rule, at most 27
 template <ConvexTool Tool>
-FEELER_FLATTEN
-Passage<typename Tool::Scalar> pass(const MovingTool<Tool>& moving, const PassedTriangle<typename Tool::Scalar>& triangle,
-                                    const MotionFrame<typename Tool::Scalar>& start,
-                                    const MotionFrame<typename Tool::Scalar>& end,
-                                    const Clearance<typename Tool::Scalar>& clearance, int& work,
-                                    typename Tool::Scalar enough = std::numeric_limits<typename Tool::Scalar>::infinity(),
-                                    int limit = (std::numeric_limits<int>::max)()) noexcept {
+FEELER_FLATTEN Passage<typename Tool::Scalar> pass(const MovingTool<Tool>& moving, const PassedTriangle<typename Tool::Scalar>& triangle,
+                                                   const MotionFrame<typename Tool::Scalar>& start, const MotionFrame<typename Tool::Scalar>& end,
+                                                   const Clearance<typename Tool::Scalar>& clearance, int& work,
+                                                   typename Tool::Scalar enough = std::numeric_limits<typename Tool::Scalar>::infinity(),
+                                                   int limit = (std::numeric_limits<int>::max)()) noexcept {
   using Scalar = typename Tool::Scalar;
   using Plane = detail::HeldPlane<Scalar>;
   const Matrix3<Scalar>& corners = triangle.corners;
@@ -162,7 +157,8 @@ Passage<typename Tool::Scalar> pass(const MovingTool<Tool>& moving, const Passed
   }
   if (is_known && triangle.last_normal.squaredNorm() > Scalar(0)) {
     const Plane guess{triangle.last_normal, slack_at(triangle.last_normal, end)};
-    if (detail::turning_plane_holds(moving, corners, plane, start, guess, end, clearance.required(plane.slack))) return {end.time, false, guess.normal, warm};
+    if (detail::turning_plane_holds(moving, corners, plane, start, guess, end, clearance.required(plane.slack)))
+      return {end.time, false, guess.normal, warm};
   }
   Plane last = query(end, touches);
   if (last.slack > -std::numeric_limits<Scalar>::infinity()) {
@@ -177,7 +173,8 @@ Passage<typename Tool::Scalar> pass(const MovingTool<Tool>& moving, const Passed
     if (touches) last = query(end, true);
   }
   const Scalar required = clearance.required(plane.slack);
-  if (detail::turning_plane_holds(moving, corners, plane, start, last, end, required)) return {end.time, false, last.normal, warm, false, false, last.slack};
+  if (detail::turning_plane_holds(moving, corners, plane, start, last, end, required))
+    return {end.time, false, last.normal, warm, false, false, last.slack};
   const Scalar length = moving.length() * end.time;
   const Scalar resolution = triangle.is_exact ? clearance.resolution : (std::max)(clearance.resolution, length / 16);
   const int maximum_steps = triangle.is_exact ? 24 : 10;
@@ -218,7 +215,8 @@ Passage<typename Tool::Scalar> pass(const MovingTool<Tool>& moving, const Passed
       rolls = triangle.is_exact && 2 * (next.slack - required) > plane.slack - required;
       plane = next;
     }
-    if (detail::turning_plane_holds(moving, corners, plane, frame, last, end, required)) return {end.time, false, last.normal, warm, false, false, last.slack};
+    if (detail::turning_plane_holds(moving, corners, plane, frame, last, end, required))
+      return {end.time, false, last.normal, warm, false, false, last.slack};
   }
   return {.time = frame.time, .is_blocked = true, .normal = plane.normal, .features = warm, .is_cut = is_cut};
 }

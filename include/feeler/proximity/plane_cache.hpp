@@ -51,8 +51,8 @@ class PlaneCache {
 
   /// Adds a plane in place of the least useful one and finds its limit; returns its position.
   template <class Moving>
-  int add(const Vector3<Scalar>& normal, const Moving& moving, const MotionFrame<Scalar>& start,
-          const MotionFrame<Scalar>& end, Scalar kept) noexcept {
+  int add(const Vector3<Scalar>& normal, const Moving& moving, const MotionFrame<Scalar>& start, const MotionFrame<Scalar>& end,
+          Scalar kept) noexcept {
     int place = size_ < capacity ? size_++ : 0;
     if (size_ == capacity && place == 0) {
       for (int i = 1; i < capacity; ++i) {
@@ -111,9 +111,9 @@ class PlaneCache {
   int size_ = 0;
   std::array<Plane, capacity> planes_;
   BoxOnMotion<Scalar> box_;
-  bool knows_heights_ = false;   // of the tool at the end of the last motion
+  bool knows_heights_ = false;  // of the tool at the end of the last motion
   Matrix3<Scalar> axes_at_end_;  // of the tool there
-  Vector3<Scalar> shift_;        // to there from where it began [m]
+  Vector3<Scalar> shift_;  // to there from where it began [m]
   FeatureCache features_;
   ToolPlanes<Scalar> with_tool_;
   PartedLeaves<Scalar> leaves_;

@@ -42,8 +42,7 @@ typename Tool::Scalar separation_along(const Tool& tool, const Matrix3<typename 
 /// @param accepted  overlap that needs no better axis [m]; rounding is accepted anyway
 /// @cost  two support calls an axis: at most 13 axes for a box, some hundreds for a hull of 32 points; one where a face touches
 template <ConvexTool Tool>
-SeparatingAxis<typename Tool::Scalar> best_separating_axis(const Tool& tool,
-                                                           const Matrix3<typename Tool::Scalar>& triangle,
+SeparatingAxis<typename Tool::Scalar> best_separating_axis(const Tool& tool, const Matrix3<typename Tool::Scalar>& triangle,
                                                            typename Tool::Scalar accepted = 0) noexcept {
   using Scalar = typename Tool::Scalar;
   using std::sqrt;

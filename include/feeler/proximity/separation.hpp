@@ -56,8 +56,7 @@ ClosestPoints<typename Tool::Scalar> separation_of_touching(const Tool& tool, co
 /// returned with it.
 /// @param triangle  3×3, a corner a column, in the tool frame [m]; may be degenerate
 template <ConvexTool Tool>
-ClosestPoints<typename Tool::Scalar> separation(const Tool& tool, const Matrix3<typename Tool::Scalar>& triangle,
-                                                const WitnessFeatures& warm,
+ClosestPoints<typename Tool::Scalar> separation(const Tool& tool, const Matrix3<typename Tool::Scalar>& triangle, const WitnessFeatures& warm,
                                                 typename Tool::Scalar touching) noexcept {
   const ClosestPoints<typename Tool::Scalar> closest = gjk(tool, triangle, warm, touching);
   return closest.is_touching ? separation_of_touching(tool, triangle, closest) : closest;

@@ -121,8 +121,8 @@ class Sweep {
   /// @param until   time up to which the motion is of interest: only [0, until] is certified
   /// @param first_blocked  time at which something else blocks the motion: what does not before that is not looked for exactly
   template <class MeshScalar>
-  SweepResult<Scalar> certify(const TriangleMesh<MeshScalar>& mesh, const MovingTool<Tool>& moving,
-                              std::span<const KnownTriangle<Scalar>> known, int& work, int limit, Scalar until = Scalar(1),
+  SweepResult<Scalar> certify(const TriangleMesh<MeshScalar>& mesh, const MovingTool<Tool>& moving, std::span<const KnownTriangle<Scalar>> known,
+                              int& work, int limit, Scalar until = Scalar(1),
                               Scalar first_blocked = std::numeric_limits<Scalar>::infinity()) noexcept {
     first_blocked_ = first_blocked;
     known_ = known;
@@ -156,13 +156,14 @@ class Sweep {
   /// After `notice`, or this, was exhausted: the rest of it, with what came before.
   /// @param mesh, standing, known  as there
   template <class MeshScalar>
-  NoticedTriangles go_on_noticing(const TriangleMesh<MeshScalar>& mesh, const MovingTool<Tool>& standing, std::span<const KnownTriangle<Scalar>> known,
-                                  int& work, int limit) noexcept {
+  NoticedTriangles go_on_noticing(const TriangleMesh<MeshScalar>& mesh, const MovingTool<Tool>& standing,
+                                  std::span<const KnownTriangle<Scalar>> known, int& work, int limit) noexcept {
     known_ = known;
     const auto look_at = [&](int triangle, const Matrix3<Scalar>& corners) {
       if (is_behind_known(corners, standing, work)) return true;
       ++work;
-      const auto closest = gjk(standing.tool(), standing.in_tool(corners, start_), planes_->features().recall_or_guess(triangle), clearance_.touching);
+      const auto closest =
+          gjk(standing.tool(), standing.in_tool(corners, start_), planes_->features().recall_or_guess(triangle), clearance_.touching);
       planes_->features().remember(triangle, closest.features);
       if (!closest.is_touching && closest.distance > clearance_.kept) {
         add_plane(start_.rotation * closest.normal, standing);
@@ -278,9 +279,8 @@ class Sweep {
   /// Calls `visit(triangle, its corners relative to the motion's origin)` for every triangle not `is_known` that no cached plane passes, and
   /// `may_go_on()` between, until one call is false; true when it came to the end. It goes on where it was.
   template <class MeshScalar, class IsKnown, class IsWallParted, class Visit, class MayGoOn>
-  FEELER_FLATTEN
-  bool traverse(const TriangleMesh<MeshScalar>& mesh, const MovingTool<Tool>& moving, int& work, const IsKnown& is_known,
-                const IsWallParted& is_wall_parted, const Visit& visit, const MayGoOn& may_go_on) noexcept {
+  FEELER_FLATTEN bool traverse(const TriangleMesh<MeshScalar>& mesh, const MovingTool<Tool>& moving, int& work, const IsKnown& is_known,
+                               const IsWallParted& is_wall_parted, const Visit& visit, const MayGoOn& may_go_on) noexcept {
     const auto look_at = [&](std::int32_t leaf, std::size_t lane) {
       if (leaf == noted_leaf_ ? has_passed(lane) : planes_->leaves().is_parted(leaf, lane)) return true;
       const int triangle = mesh.bvh().leaves()[std::size_t(leaf)].triangle[lane];
@@ -316,7 +316,8 @@ class Sweep {
   /// Planes that part the tool from the triangles of a leaf, all of them: the leaf that has one for each need not be visited again.
   /// @param unparted  a lane that the front was asked for
   template <class MeshScalar>
-  void note_planes(const TriangleMesh<MeshScalar>& mesh, std::int32_t leaf, std::size_t unparted, const MovingTool<Tool>& moving, int& work) noexcept {
+  void note_planes(const TriangleMesh<MeshScalar>& mesh, std::int32_t leaf, std::size_t unparted, const MovingTool<Tool>& moving,
+                   int& work) noexcept {
     auto& front = planes_->leaves();
     const auto& triangles = mesh.bvh().leaves()[std::size_t(leaf)].triangle;
     unsigned there = 0;
@@ -379,14 +380,15 @@ class Sweep {
     std::uint64_t marks = 0;  // a bit for every 64th triangle: most are told from the known by it
     for (const KnownTriangle<Scalar>& pair : known_) marks |= mark_of(pair.triangle);
     return [this, marks, mark_of](int triangle) {
-      return (marks & mark_of(triangle)) != 0 && std::any_of(known_.begin(), known_.end(), [triangle](const auto& pair) { return pair.triangle == triangle; });
+      return (marks & mark_of(triangle)) != 0 &&
+             std::any_of(known_.begin(), known_.end(), [triangle](const auto& pair) { return pair.triangle == triangle; });
     };
   }
 
   /// Measures a triangle; false where the work ran out before it was known how far the motion is free, and nothing came of it.
   /// @param must_do  then too what is known is made use of
-  FEELER_FLATTEN
-  bool examine(int triangle, const PassedTriangle<Scalar>& state, const MovingTool<Tool>& moving, int& work, int limit, bool must_do) noexcept {
+  FEELER_FLATTEN bool examine(int triangle, const PassedTriangle<Scalar>& state, const MovingTool<Tool>& moving, int& work, int limit,
+                              bool must_do) noexcept {
     if (work >= limit) return false;
     if (!state.is_exact && is_behind_known(state.corners, moving, work)) return true;
     const Passage<Scalar> passage = pass(moving, state, start_, end_, clearance_, work, first_blocked_, limit);
@@ -412,8 +414,7 @@ class Sweep {
 
   /// Whether a triangle lies in or behind the plane that parts a known one from the tool: then it is no nearer than that one, as seen along the
   /// normal. Of a wall that is cut into many triangles a few so tell all.
-  FEELER_FLATTEN
-  bool is_behind_known(const Matrix3<Scalar>& corners, const MovingTool<Tool>& moving, int& work) noexcept {
+  FEELER_FLATTEN bool is_behind_known(const Matrix3<Scalar>& corners, const MovingTool<Tool>& moving, int& work) noexcept {
     constexpr int triangles_per_work = 4;
     hidden_ = (hidden_ + 1) % triangles_per_work;
     if (hidden_ == 0) ++work;
@@ -429,8 +430,7 @@ class Sweep {
   }
 
   /// From here on only [0, time] is certified.
-  FEELER_FLATTEN
-  void set_end(const MovingTool<Tool>& moving, Scalar time) noexcept {
+  FEELER_FLATTEN void set_end(const MovingTool<Tool>& moving, Scalar time) noexcept {
     end_ = moving.frame_at(time);
     planes_->end(moving, end_, clearance_.kept);
     planes_->with_tool().set_motion(moving, start_, end_, clearance_.kept);
@@ -441,8 +441,7 @@ class Sweep {
     for (int i = 0; i < planes_->size(); ++i) coarse_.set_plane(known_planes_.size() + i, planes_->normal(i), planes_->limit(i));
   }
 
-  FEELER_FLATTEN
-  void add_plane(const Vector& normal, const MovingTool<Tool>& moving) noexcept {
+  FEELER_FLATTEN void add_plane(const Vector& normal, const MovingTool<Tool>& moving) noexcept {
     count_hits();
     const int i = planes_->add(normal, moving, start_, end_, clearance_.kept);
     coarse_.set_plane(known_planes_.size() + i, normal, planes_->limit(i));
@@ -469,8 +468,7 @@ class Sweep {
     });
   }
 
-  FEELER_FLATTEN
-  bool passes(const Matrix3<Scalar>& corners, const MovingTool<Tool>& moving) noexcept {
+  FEELER_FLATTEN bool passes(const Matrix3<Scalar>& corners, const MovingTool<Tool>& moving) noexcept {
     if (last_ < planes_->size() && passes(corners, last_)) return true;
     const int turning = planes_->with_tool().parting(corners);
     if (turning >= 0) {
@@ -501,7 +499,7 @@ class Sweep {
   bool may_be_near_ = true;  // a motion may end nearer than `Clearance::kept`, where it started so
   Scalar first_blocked_ = std::numeric_limits<Scalar>::infinity();  // time of the first blocker so far
   SweepResult<Scalar> result_;  // so far
-  NoticedTriangles noticed_;    // likewise
+  NoticedTriangles noticed_;  // likewise
   std::size_t next_known_ = 0;  // first of the known triangles that is not examined
   std::optional<TraversalPlace<Order>> place_;
   Frame start_;

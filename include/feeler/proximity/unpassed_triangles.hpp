@@ -37,7 +37,8 @@ struct TraversalPlace {
   explicit TraversalPlace(const Order& order) noexcept : waiting(order) {}
 
   Order waiting;
-  std::array<std::int32_t, std::size_t(Order::leaves_at_once * BvhLeaf::width + 1)> unpassed;  // places in leaves; one more is written, and not counted
+  std::array<std::int32_t, std::size_t(Order::leaves_at_once* BvhLeaf::width + 1)>
+      unpassed;  // places in leaves; one more is written, and not counted
   std::size_t unpassed_count = 0, next = 0;  // of them, and the first that was not visited
   int uncounted = 0;                         // nodes and leaves since the work last grew
 };
@@ -49,8 +50,8 @@ struct TraversalPlace {
 /// @param plane_count  `plane_count()` is how many they are
 /// @param work         grows by the work done
 template <class Scalar, class Planes, class PlaneCount, class Order, class Sift, class Visit, class MayGoOn>
-bool visit_unpassed(const Bvh<Scalar>& bvh, Planes& planes, const PlaneCount& plane_count, TraversalPlace<Order>& place, int& work,
-                    const Sift& sift, const Visit& visit, const MayGoOn& may_go_on) noexcept {
+bool visit_unpassed(const Bvh<Scalar>& bvh, Planes& planes, const PlaneCount& plane_count, TraversalPlace<Order>& place, int& work, const Sift& sift,
+                    const Visit& visit, const MayGoOn& may_go_on) noexcept {
   for (;;) {
     while (place.next < place.unpassed_count) {
       if (!may_go_on()) return false;

@@ -188,7 +188,9 @@ class WallPlanes {
     plane.wall = wall;
     plane.piece = piece_;
     const Vector3<Scalar> front = mesh.normal(triangle).template cast<Scalar>(), back = -front;
-    const auto room = [&](const Vector3<Scalar>& normal) { return moving.lowest(normal, start) + normal.dot(to_mesh_) - height_of(mesh, triangle, normal); };
+    const auto room = [&](const Vector3<Scalar>& normal) {
+      return moving.lowest(normal, start) + normal.dot(to_mesh_) - height_of(mesh, triangle, normal);
+    };
     plane.is_front = room(front) >= room(back);
     const Vector3<Scalar>& normal = plane.is_front ? front : back;
     plane.heights = PlaneOnMotion<Scalar>(normal);

@@ -47,9 +47,7 @@ class DualActiveSet {
   /// Violation of a row that is accepted [m].
   Scalar tolerance = Scalar(2e-13);
 
-  QpStatus solve(const Problem& problem, Solution& solution) noexcept {
-    return solve(problem, WarmStart{}, solution);
-  }
+  QpStatus solve(const Problem& problem, Solution& solution) noexcept { return solve(problem, WarmStart{}, solution); }
 
   /// Starts from rows that are likely to be active.
   [[gnu::noinline]]

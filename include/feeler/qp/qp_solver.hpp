@@ -10,10 +10,9 @@ namespace feeler {
 
 /// A solver of `QpProblem`s: bounded time, no allocation, no exception, the same answer for the same input.
 template <class T>
-concept QpSolver = RealScalar<typename T::Scalar> &&
-                   requires(T& solver, const QpProblem<typename T::Scalar>& problem,
-                            QpSolution<typename T::Scalar>& solution) {
-                     { solver.solve(problem, solution) } noexcept -> std::same_as<QpStatus>;
-                   };
+concept QpSolver =
+    RealScalar<typename T::Scalar> && requires(T& solver, const QpProblem<typename T::Scalar>& problem, QpSolution<typename T::Scalar>& solution) {
+      { solver.solve(problem, solution) } noexcept -> std::same_as<QpStatus>;
+    };
 
 }  // namespace feeler

@@ -69,13 +69,11 @@ ConstraintPlanes<Scalar> planes_around(const SurfaceFeatures<Scalar>& surface, c
 /// @param rounding       sum of depths that still counts as in front [m]
 /// @param for_each_from  calls its argument with the vector to each vertex of the tool from the point [m, world axes]
 template <class Scalar, class ForEach>
-SurfaceSide side_of_tool(const SurfaceFeatures<Scalar>& surface, const Feature& feature, Scalar rounding,
-                         const ForEach& for_each_from) noexcept {
+SurfaceSide side_of_tool(const SurfaceFeatures<Scalar>& surface, const Feature& feature, Scalar rounding, const ForEach& for_each_from) noexcept {
   const auto& incidence = surface.incidence();
   // Where real ridges and valleys meet, either answer gives the same shape.
-  const bool is_valley = feature.kind == FeatureKind::vertex
-                             ? surface.vertex(feature.index).has_valley && !surface.vertex(feature.index).has_ridge
-                             : surface.convexity(feature, SurfaceSide::front) == Convexity::concave;
+  const bool is_valley = feature.kind == FeatureKind::vertex ? surface.vertex(feature.index).has_valley && !surface.vertex(feature.index).has_ridge
+                                                             : surface.convexity(feature, SurfaceSide::front) == Convexity::concave;
   Scalar sum = Scalar(0);
   for_each_from([&](const Vector3<Scalar>& direction) {
     const auto height = [&](int face) { return surface.face(face).normal.dot(direction); };

@@ -42,8 +42,7 @@ struct ContactFormation {
 /// Whether the same features touch, whatever the regions.
 template <class Scalar>
 bool same_features(const ContactFormation<Scalar>& a, const ContactFormation<Scalar>& b) noexcept {
-  return std::equal(a.begin(), a.end(), b.begin(), b.end(),
-                    [](const auto& x, const auto& y) { return x.has_features_of(y); });
+  return std::equal(a.begin(), a.end(), b.begin(), b.end(), [](const auto& x, const auto& y) { return x.has_features_of(y); });
 }
 
 /// Whether the same types occur equally often, in as many regions: what remains the same on another triangulation.

@@ -63,8 +63,7 @@ class ContactMeasures {
   SurfaceSide side_at(const Features& touching) const noexcept {
     const Vector point = mean_point(touching.witnesses);
     return side_of_tool<MeshScalar>(surface_, touching.object, MeshScalar(tolerance_ / 100), [&](const auto& visit) {
-      for (int i = 0; i < search_.tool().vertex_count(); ++i)
-        visit(Vector3<MeshScalar>((search_.vertex(i) - point).template cast<MeshScalar>()));
+      for (int i = 0; i < search_.tool().vertex_count(); ++i) visit(Vector3<MeshScalar>((search_.vertex(i) - point).template cast<MeshScalar>()));
     });
   }
 

@@ -18,8 +18,8 @@
 #include "feeler/recognition/witness_search.hpp"
 #include "feeler/spatial/pose.hpp"
 #include "feeler/tool/convex_tool.hpp"
-#include "feeler/tool/tool_incidence.hpp"
 #include "feeler/tool/swept_tool.hpp"
+#include "feeler/tool/tool_incidence.hpp"
 
 namespace feeler {
 
@@ -145,8 +145,8 @@ class ContactRecogniser {
     contacts_.clear();
     for (const Candidate& candidate : candidates_) {
       if (!candidate.touches) continue;
-      const bool is_part = std::any_of(candidates_.begin(), candidates_.end(),
-                                       [&](const Candidate& other) { return other.touches && is_part_of(candidate, other); });
+      const bool is_part =
+          std::any_of(candidates_.begin(), candidates_.end(), [&](const Candidate& other) { return other.touches && is_part_of(candidate, other); });
       (is_part ? parts_ : contacts_).push_back(candidate);
     }
   }
@@ -178,8 +178,7 @@ class ContactRecogniser {
   template <class Visit>
   void for_each_valley(const Feature& object, SurfaceSide side, const Visit& visit) const noexcept {
     const auto visit_if = [&](int edge) {
-      if (surface_.convexity({FeatureKind::edge, edge}, side) == Convexity::concave && surface_.incidence().edge_faces(edge).size() == 2)
-        visit(edge);
+      if (surface_.convexity({FeatureKind::edge, edge}, side) == Convexity::concave && surface_.incidence().edge_faces(edge).size() == 2) visit(edge);
     };
     if (object.kind == FeatureKind::edge) visit_if(object.index);
     if (object.kind == FeatureKind::vertex)

@@ -51,8 +51,7 @@ class ContactWitnesses {
         if (smaller.tool == larger.tool && smaller.object == larger.object) return false;
         const bool at_tool_vertex = larger.tool.kind == FeatureKind::vertex && smaller.tool == larger.tool;
         const bool at_object_vertex = larger.object.kind == FeatureKind::vertex && smaller.object == larger.object;
-        return (at_tool_vertex && object.contains(larger.object, smaller.object)) ||
-               (at_object_vertex && tool.contains(larger.tool, smaller.tool));
+        return (at_tool_vertex && object.contains(larger.object, smaller.object)) || (at_object_vertex && tool.contains(larger.tool, smaller.tool));
       };
       for (const Witness& smaller : witnesses_) {
         if (!explains(smaller)) continue;
@@ -67,8 +66,7 @@ class ContactWitnesses {
              const Feature& object_feature) const noexcept {
     Set set;
     for (int i = 0; i < size(); ++i)
-      if (tool.contains(tool_feature, witnesses_[i].tool) && object.contains(object_feature, witnesses_[i].object))
-        set.set(std::size_t(i));
+      if (tool.contains(tool_feature, witnesses_[i].tool) && object.contains(object_feature, witnesses_[i].object)) set.set(std::size_t(i));
     return set;
   }
 
@@ -86,9 +84,7 @@ class ContactWitnesses {
     const Scalar length = longest.norm();
     if (!(length > least)) return 0;
     Scalar width = Scalar(0);
-    for_each(set, [&](const Witness& w) {
-      width = (std::max)(width, Vector3<Scalar>(w.on_object - origin).cross(longest).norm() / length);
-    });
+    for_each(set, [&](const Witness& w) { width = (std::max)(width, Vector3<Scalar>(w.on_object - origin).cross(longest).norm() / length); });
     return width > least ? 2 : 1;
   }
 

@@ -41,11 +41,10 @@ enum class PrincipalContactClass : unsigned char {
 constexpr PrincipalContactType principal_contact_type(FeatureKind tool, FeatureKind object, Convexity shape) noexcept {
   using enum PrincipalContactType;
   const bool is_concave = shape == Convexity::concave || (shape == Convexity::mixed && tool == FeatureKind::vertex);
-  constexpr PrincipalContactType table[3][5] = {
-      // V convex, V concave, E convex, E concave, F
-      {vertex_convex_vertex, vertex_concave_vertex, vertex_convex_edge, vertex_concave_edge, vertex_face},
-      {edge_convex_vertex, vertex_concave_vertex, edge_convex_edge, edge_concave_edge, edge_face},
-      {face_convex_vertex, vertex_concave_vertex, face_convex_edge, edge_concave_edge, face_face}};
+  constexpr PrincipalContactType table[3][5] = {      // V convex, V concave, E convex, E concave, F
+                                                {vertex_convex_vertex, vertex_concave_vertex, vertex_convex_edge, vertex_concave_edge, vertex_face},
+                                                {edge_convex_vertex, vertex_concave_vertex, edge_convex_edge, edge_concave_edge, edge_face},
+                                                {face_convex_vertex, vertex_concave_vertex, face_convex_edge, edge_concave_edge, face_face}};
   const int column = object == FeatureKind::face ? 4 : (object == FeatureKind::edge ? 2 : 0) + (is_concave ? 1 : 0);
   return table[static_cast<int>(tool)][column];
 }
@@ -107,9 +106,7 @@ struct PrincipalContact {
   Scalar gap = Scalar(0);  ///< of the nearest place; negative where the features overlap [m]
   int region = 0;          ///< number of the connected place of touching, in the order of the formation
 
-  bool has_features_of(const PrincipalContact& other) const noexcept {
-    return tool == other.tool && object == other.object;
-  }
+  bool has_features_of(const PrincipalContact& other) const noexcept { return tool == other.tool && object == other.object; }
 };
 
 }  // namespace feeler

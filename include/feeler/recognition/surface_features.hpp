@@ -75,9 +75,7 @@ class SurfaceFeatures {
   /// The face that a triangle belongs to.
   int face_of_triangle(int triangle) const noexcept { return triangle_face_[std::size_t(triangle)]; }
   /// The edge that edge k of a triangle is a piece of, or the face that it is inside of.
-  Feature feature_of_edge(int triangle, int k) const noexcept {
-    return triangle_edge_[std::size_t(3 * triangle + k)];
-  }
+  Feature feature_of_edge(int triangle, int k) const noexcept { return triangle_edge_[std::size_t(3 * triangle + k)]; }
   /// What a vertex of the mesh is, or is inside of.
   Feature feature_of_vertex(int mesh_vertex) const noexcept { return vertex_feature_[std::size_t(mesh_vertex)]; }
 
@@ -128,9 +126,7 @@ class SurfaceFeatures {
         faces_.back().first_triangle = (std::min)(faces_.back().first_triangle, triangle);
         const Matrix3<Scalar> corners = mesh.corners(triangle);
         const Vector3<Scalar> normal = mesh.normal(triangle);
-        const Scalar area = Vector3<Scalar>(corners.col(1) - corners.col(0))
-                                .cross(Vector3<Scalar>(corners.col(2) - corners.col(0)))
-                                .norm();
+        const Scalar area = Vector3<Scalar>(corners.col(1) - corners.col(0)).cross(Vector3<Scalar>(corners.col(2) - corners.col(0))).norm();
         if (area > largest) {
           largest = area;
           faces_.back().normal = Scalar(orientation[i]) * normal;
@@ -143,8 +139,7 @@ class SurfaceFeatures {
           if (topology.edge_convexity(triangle, k) != Convexity::flat) continue;
           triangle_face_[at(neighbour)] = face;
           open.push_back(neighbour);
-          orientation.push_back(faces_same_side(mesh, triangle, k, neighbour) ? orientation[i]
-                                                                             : static_cast<signed char>(-orientation[i]));
+          orientation.push_back(faces_same_side(mesh, triangle, k, neighbour) ? orientation[i] : static_cast<signed char>(-orientation[i]));
         }
       }
     };
@@ -179,9 +174,8 @@ class SurfaceFeatures {
         if (low != high) all_slots.push_back({low, high, 3 * t + k});
       }
     }
-    std::sort(all_slots.begin(), all_slots.end(), [](const Slot& a, const Slot& b) {
-      return std::array<int, 3>{a.low, a.high, a.slot} < std::array<int, 3>{b.low, b.high, b.slot};
-    });
+    std::sort(all_slots.begin(), all_slots.end(),
+              [](const Slot& a, const Slot& b) { return std::array<int, 3>{a.low, a.high, a.slot} < std::array<int, 3>{b.low, b.high, b.slot}; });
     std::vector<MeshEdge> result;
     for (const Slot& slot : all_slots) {
       const int triangle = slot.slot / 3;
@@ -264,8 +258,7 @@ class SurfaceFeatures {
           (both[0] < 0 ? both[0] : both[1]) = corner;
           const Convexity convexity = mesh_edges[e].convexity;
           auto& vertex = vertices_[at(corner)];
-          (convexity == Convexity::convex ? vertex.has_ridge : convexity == Convexity::concave ? vertex.has_valley : vertex.has_rim) =
-              true;
+          (convexity == Convexity::convex ? vertex.has_ridge : convexity == Convexity::concave ? vertex.has_valley : vertex.has_rim) = true;
         } else {
           vertex_feature_[at(end)] = {FeatureKind::edge, number[e]};
         }
@@ -288,8 +281,7 @@ class SurfaceFeatures {
   }
 
   /// Whether two edges that meet in a vertex are one straight edge there.
-  static bool continues(const TriangleMesh<Scalar>& mesh, int vertex, const MeshEdge& a, const MeshEdge& b,
-                        std::size_t faces_at_vertex) noexcept {
+  static bool continues(const TriangleMesh<Scalar>& mesh, int vertex, const MeshEdge& a, const MeshEdge& b, std::size_t faces_at_vertex) noexcept {
     if (a.convexity != b.convexity || a.faces != b.faces || faces_at_vertex != a.faces.size()) return false;
     using Working = WorkingScalar<Scalar>;
     const auto other_end = [&](const MeshEdge& edge) {
@@ -301,8 +293,7 @@ class SurfaceFeatures {
     const Working size = (std::max)({middle.cwiseAbs().maxCoeff(), other_end(a).cwiseAbs().maxCoeff(), other_end(b).cwiseAbs().maxCoeff()});
     const Working sine = first.normalized().cross(second.normalized()).norm();
     // A vertex is known to its rounding, which turns a short edge more than a long one.
-    return first.dot(second) < Working(0) &&
-           sine <= 16 * Working(std::numeric_limits<Scalar>::epsilon()) * (1 + size / shortest);
+    return first.dot(second) < Working(0) && sine <= 16 * Working(std::numeric_limits<Scalar>::epsilon()) * (1 + size / shortest);
   }
 
   std::vector<SurfaceFace<Scalar>> faces_;

@@ -56,10 +56,8 @@ class WitnessSearch {
     mesh_.bvh().visit(is_apart, [&](int triangle) {
       const Matrix3<Scalar> corners = corners_of(triangle);
       if (!may_touch(corners)) return true;
-      if (count++ >= most_triangles)
-        ++dropped_triangles_;
-      else
-        look_at(triangle, corners, witnesses);
+      if (count++ >= most_triangles) ++dropped_triangles_;
+      else look_at(triangle, corners, witnesses);
       return true;
     });
   }
@@ -70,9 +68,7 @@ class WitnessSearch {
   const Vector& vertex(int i) const noexcept { return vertices_[std::size_t(i)]; }
   const Vector& face_normal(int i) const noexcept { return normals_[std::size_t(i)]; }
   /// A world point in the axes of the witnesses.
-  Vector local(const Vector3<MeshScalar>& point_world) const noexcept {
-    return point_world.template cast<Scalar>() - origin_;
-  }
+  Vector local(const Vector3<MeshScalar>& point_world) const noexcept { return point_world.template cast<Scalar>() - origin_; }
   const Vector& origin() const noexcept { return origin_; }
 
  private:
@@ -241,9 +237,7 @@ class WitnessSearch {
     }
   }
 
-  bool is_within(const Vector& a, const Vector& b) const noexcept {
-    return (a - b).squaredNorm() <= tolerance_ * tolerance_;
-  }
+  bool is_within(const Vector& a, const Vector& b) const noexcept { return (a - b).squaredNorm() <= tolerance_ * tolerance_; }
 
   Tool tool_;
   const TriangleMesh<MeshScalar>& mesh_;

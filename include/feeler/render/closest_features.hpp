@@ -242,15 +242,16 @@ class ClosestFeaturesFollower {
     Iteration& it = iteration_;
     stage_ = Stage::certifying;
     const int begun = tick.work;
-    const auto result = goes_on ? certificate_.go_on(scene, tick.work, budget_.limit(), linearisation_.pairs())
-                                : certificate_.certify(scene, pose_, it.proposal.motion, tick.work, budget_.limit(), linearisation_.pairs(),
-                                                       reach_of_step(scene));
+    const auto result =
+        goes_on ? certificate_.go_on(scene, tick.work, budget_.limit(), linearisation_.pairs())
+                : certificate_.certify(scene, pose_, it.proposal.motion, tick.work, budget_.limit(), linearisation_.pairs(), reach_of_step(scene));
     it.work += tick.work - begun;
     if (result.is_exhausted) return Outcome::suspended;
     stage_ = Stage::starting;
     if (result.is_whole() && it.proposal.is_settled && !it.proposal.is_capped) return look_around(scene, false, tick);
-    if (result.time > Scalar(0)) move_to(scene, result.time < Scalar(1) ? scene.idle_turns().moved(pose_, it.proposal.motion * result.time) : it.end,
-                                         it.length * result.time, tick);
+    if (result.time > Scalar(0))
+      move_to(scene, result.time < Scalar(1) ? scene.idle_turns().moved(pose_, it.proposal.motion * result.time) : it.end, it.length * result.time,
+              tick);
     if (result.is_whole()) {
       widen(scene);
     } else if (result.blockers.empty()) {
@@ -410,7 +411,9 @@ class ClosestFeaturesFollower {
     constexpr int most_additions = 3;
     if (!is_capped && bend_again(scene, pose, off, tick)) return;
     project(scene, off, is_capped, tick);
-    for (int i = 0; i < most_additions && budget_.allows_solve(tick.work) && linearisation_.add_crossed(scene, trusted_step(scene, pose), tick, budget_.limit()); ++i) {
+    for (int i = 0;
+         i < most_additions && budget_.allows_solve(tick.work) && linearisation_.add_crossed(scene, trusted_step(scene, pose), tick, budget_.limit());
+         ++i) {
       project(scene, off, is_capped, tick);
     }
     if (!is_capped) bend(scene, off, tick);
@@ -470,7 +473,8 @@ class ClosestFeaturesFollower {
   }
 
   /// Solves again with the contacts of the certified pose that the motion would break; here and below, if there is work left.
-  void keep_contacts(const Scene& scene, const Pose<Scalar>& pose, const Twist<Scalar>& off, bool is_capped, Leg& leg, Tick<MeshScalar>& tick) noexcept {
+  void keep_contacts(const Scene& scene, const Pose<Scalar>& pose, const Twist<Scalar>& off, bool is_capped, Leg& leg,
+                     Tick<MeshScalar>& tick) noexcept {
     if (!linearisation_.may_break()) return;
     linearisation_.release_kept();
     for (int round = 0; round < 2 && budget_.allows_solve(tick.work) && linearisation_.keep_broken(scene, leg.motion); ++round) {
@@ -489,9 +493,9 @@ class ClosestFeaturesFollower {
     return true;
   }
 
-  Pose<Scalar> pose_;     // the certified pose
-  Pose<Scalar> target_;   // the haptic pose
-  Twist<Scalar> off_;     // of the certified pose from it
+  Pose<Scalar> pose_;  // the certified pose
+  Pose<Scalar> target_;  // the haptic pose
+  Twist<Scalar> off_;  // of the certified pose from it
   bool goes_on_ = false;  // the last tick left motion for this one
   bool takes_first_alone_ = false;  // the next motion, maybe in the next tick, is the first step: the last went back, as a triangle is missing
   Stage stage_ = Stage::starting;

@@ -28,8 +28,7 @@ struct FreePose {
   bool is_found = false;
   Pose<Scalar> pose;  ///< free; the one asked for where that is, or where none was found
   TickStatus status = TickStatus::not_reset;  ///< what `reset` says of the pose asked for
-  Scalar depth =
-      Scalar(0);  ///< how deep that is: the longest way of a tool point from there to the free pose [m]
+  Scalar depth = Scalar(0);  ///< how deep that is: the longest way of a tool point from there to the free pose [m]
   FixedVector<ActiveContact<Scalar>, Tick<Scalar>::contact_capacity>
       contacts;  ///< where the tool touches at the free pose, and from where it was freed
 };
@@ -45,11 +44,7 @@ class FreePoseSearch {
   using Result = FreePose<MeshScalar>;
 
   FreePoseSearch(Renderer& renderer, const Pose<MeshScalar>& pose, Scalar farthest) noexcept
-      : renderer_(renderer),
-        scene_(renderer.scene()),
-        asked_(pose),
-        start_(scene_.reference_pose(pose)),
-        farthest_(farthest) {}
+      : renderer_(renderer), scene_(renderer.scene()), asked_(pose), start_(scene_.reference_pose(pose)), farthest_(farthest) {}
 
   Result run(TickStatus status) noexcept {
     best_.pose = asked_.normalized();
@@ -83,13 +78,11 @@ class FreePoseSearch {
         (box.min)()[k] = pose.translation[k] + moving.lowest_along_axis(k, 1, frame) - scene_.margin();
         (box.max)()[k] = pose.translation[k] - moving.lowest_along_axis(k, -1, frame) + scene_.margin();
       }
-      visit_triangles_in(scene_.object(), box,
-                         [&](int triangle) { return goes_on = visit(piece, triangle); });
+      visit_triangles_in(scene_.object(), box, [&](int triangle) { return goes_on = visit(piece, triangle); });
     }
   }
   Matrix3<Scalar> in_tool(int triangle, const Pose<Scalar>& pose) const noexcept {
-    return scene_.in_tool(scene_.object().corners(triangle).template cast<Scalar>(), pose,
-                          pose.rotation.toRotationMatrix());
+    return scene_.in_tool(scene_.object().corners(triangle).template cast<Scalar>(), pose, pose.rotation.toRotationMatrix());
   }
 
   /// Whether a triangle overlaps the tool or touches it: cheaper than `reset` where there is one.
@@ -127,8 +120,7 @@ class FreePoseSearch {
   }
 
   /// The least motion in the metric after which a triangle is half a margin from a piece; none where it is.
-  Twist<Scalar> push_of(int piece, int triangle, const Pose<Scalar>& pose,
-                        bool follows_normals) const noexcept {
+  Twist<Scalar> push_of(int piece, int triangle, const Pose<Scalar>& pose, bool follows_normals) const noexcept {
     const auto& tool = scene_.piece(piece);
     const Matrix3<Scalar> corners = in_tool(triangle, pose);
     auto closest = gjk(tool, corners, {}, scene_.clearance().touching);
@@ -143,8 +135,7 @@ class FreePoseSearch {
     }
     Vector6<Scalar> row;
     row.template head<3>() = pose.rotation * closest.normal;
-    row.template tail<3>() = (pose.rotation * Vector3<Scalar>(closest.tool_point - scene_.reference()))
-                                 .cross(row.template head<3>());
+    row.template tail<3>() = (pose.rotation * Vector3<Scalar>(closest.tool_point - scene_.reference())).cross(row.template head<3>());
     const Vector6<Scalar> motion = row.cwiseQuotient(scene_.metric().diagonal());
     return Twist<Scalar>::from_vector(motion * ((scene_.margin() - closest.distance) / row.dot(motion)));
   }
@@ -159,8 +150,7 @@ class FreePoseSearch {
       way = (std::min)(way, farthest_);
       for (int i = 0; i < grid; ++i) {
         if (i == grid / 2 || is_done[std::size_t(i)]) continue;
-        const Vector3<Scalar> direction =
-            Vector3<Scalar>(Scalar(i % 3 - 1), Scalar(i / 3 % 3 - 1), Scalar(i / 9 - 1)).normalized();
+        const Vector3<Scalar> direction = Vector3<Scalar>(Scalar(i % 3 - 1), Scalar(i / 3 % 3 - 1), Scalar(i / 9 - 1)).normalized();
         is_done[std::size_t(i)] = try_from({start_.translation + way * direction, start_.rotation});
       }
     }
@@ -183,8 +173,7 @@ class FreePoseSearch {
 
   void take(const Pose<MeshScalar>& pose, const decltype(Result::contacts)& contacts) noexcept {
     const Pose<Scalar> end = scene_.reference_pose(pose);
-    const Scalar energy = scene_.metric().energy(scene_.idle_turns().motion_between(start_, end)),
-                 depth = longest_way(end);
+    const Scalar energy = scene_.metric().energy(scene_.idle_turns().motion_between(start_, end)), depth = longest_way(end);
     if (depth > farthest_ || (best_.is_found && energy >= energy_)) return;
     energy_ = energy;
     best_ = {true, pose, best_.status, MeshScalar(depth), contacts};
@@ -227,8 +216,7 @@ class FreePoseSearch {
 /// @cost  noexcept, no allocation; bounded: 10 to 200 ms, and up to two seconds where thousands of triangles
 /// are overlapped; for use outside the loop
 template <class Renderer, class Scalar = typename Renderer::Scalar>
-FreePose<Scalar> nearest_free_pose(Renderer& renderer, const Pose<Scalar>& pose,
-                                   Scalar farthest = (std::numeric_limits<Scalar>::max)()) noexcept {
+FreePose<Scalar> nearest_free_pose(Renderer& renderer, const Pose<Scalar>& pose, Scalar farthest = (std::numeric_limits<Scalar>::max)()) noexcept {
   const TickStatus status = renderer.reset(pose);
   if (status == TickStatus::penetrating || status == TickStatus::inside)
     return detail::FreePoseSearch<Renderer>(renderer, pose, typename Renderer::Working(farthest)).run(status);

@@ -103,8 +103,7 @@ class HapticRenderer {
 // Defined out of the class, so not inline: `extern template class` keeps them, and all that they use, out of a file.
 
 template <RigidTool ToolType, QpSolver Solver, ContactMethod<ToolType, Solver> Method>
-HapticRenderer<ToolType, Solver, Method>::HapticRenderer(const TriangleMesh<Scalar>& object, const Tool& tool,
-                                                         const Settings<Scalar>& settings)
+HapticRenderer<ToolType, Solver, Method>::HapticRenderer(const TriangleMesh<Scalar>& object, const Tool& tool, const Settings<Scalar>& settings)
     : scene_(object, tool, settings),
       interior_(settings.closed_means_solid ? std::make_shared<const MeshInterior>(object) : nullptr),
       state_(std::in_place, scene_) {}
@@ -191,7 +190,6 @@ void HapticRenderer<ToolType, Solver, Method>::report(const Pose<Working>& targe
 template <RigidTool Tool>
 HapticRenderer(const TriangleMesh<typename Tool::Scalar>&, const Tool&) -> HapticRenderer<Tool>;
 template <RigidTool Tool>
-HapticRenderer(const TriangleMesh<typename Tool::Scalar>&, const Tool&, const Settings<typename Tool::Scalar>&)
-    -> HapticRenderer<Tool>;
+HapticRenderer(const TriangleMesh<typename Tool::Scalar>&, const Tool&, const Settings<typename Tool::Scalar>&) -> HapticRenderer<Tool>;
 
 }  // namespace feeler

@@ -108,9 +108,7 @@ class RenderedScene {
     return {pose * reference_, pose.rotation};
   }
   /// Pose of the tool frame, from the pose of the reference point.
-  Pose<Scalar> tool_frame(const Pose<Scalar>& pose) const noexcept {
-    return {pose.translation - pose.rotation * reference_, pose.rotation};
-  }
+  Pose<Scalar> tool_frame(const Pose<Scalar>& pose) const noexcept { return {pose.translation - pose.rotation * reference_, pose.rotation}; }
   Pose<MeshScalar> tool_pose(const Pose<Scalar>& pose) const noexcept { return tool_frame(pose).template cast<MeshScalar>(); }
   /// A piece of the tool on a motion of the whole.
   MovingTool<Piece> moving(int i, const Pose<Scalar>& from, const Twist<Scalar>& motion) const noexcept {
@@ -124,9 +122,7 @@ class RenderedScene {
   /// The turns that do not matter, and what is left of motions without them.
   const IdleTurns<Tool>& idle_turns() const noexcept { return idle_turns_; }
   /// Bound on the path of every point of the tool, or of its core [m].
-  Scalar length_of(const Twist<Scalar>& motion) const noexcept {
-    return motion.linear.norm() + radius_ * motion.angular.norm();
-  }
+  Scalar length_of(const Twist<Scalar>& motion) const noexcept { return motion.linear.norm() + radius_ * motion.angular.norm(); }
   /// The same for a motion from a pose: turns that do not matter have no length.
   Scalar length_of(const Twist<Scalar>& motion, const Pose<Scalar>& from) const noexcept {
     return motion.linear.norm() + radius_ * idle_turns_.angle_that_matters(motion.angular, from);
@@ -140,8 +136,7 @@ class RenderedScene {
     return (pose.rotation.coeffs() - side * target.rotation.coeffs()).template lpNorm<1>() <= rounding;
   }
   /// The corners of a triangle in the tool frame of a pose with the axes given [m].
-  Matrix3<Scalar> in_tool(const Matrix3<Scalar>& corners_world, const Pose<Scalar>& pose,
-                          const Matrix3<Scalar>& axes) const noexcept {
+  Matrix3<Scalar> in_tool(const Matrix3<Scalar>& corners_world, const Pose<Scalar>& pose, const Matrix3<Scalar>& axes) const noexcept {
     return (axes.transpose() * (corners_world.colwise() - pose.translation)).colwise() + reference_;
   }
 

@@ -51,7 +51,8 @@ std::string reason_against_weights(const Settings<Scalar>& settings, bool turns_
   if (are_too_different(settings.metric_in_use(), turns_matter))
     return std::string("HapticRenderer: Settings::") + (settings.metric ? "metric" : "stiffness") +
            " has weights that differ by more than 1e15 among translations or turns, or 1e21 between them, and the tool would not follow the hand where they are least; "
-           "bring them nearer to each other" + (settings.metric ? "" : ", or set Settings::metric too, which weighs in their place");
+           "bring them nearer to each other" +
+           (settings.metric ? "" : ", or set Settings::metric too, which weighs in their place");
   return {};
 }
 
@@ -65,8 +66,10 @@ std::string reason_against_limits(const Settings<Scalar>& settings) {
   if (!(settings.step_tolerance >= Scalar(1e-12) && settings.step_tolerance <= Scalar(1e-3)))
     return "HapticRenderer: Settings::step_tolerance is not a length of 1e-12 to 0.001 m; with less no tick converges, with more the tool stays where it is; leave "
            "the default of 5 µm if in doubt";
-  if (settings.maximum_iterations < 1) return "HapticRenderer: Settings::maximum_iterations is less than 1, and the tool could not move; give 1 to 32";
-  if (settings.work_budget < 1) return "HapticRenderer: Settings::work_budget is less than 1, and the tool could not move; leave the default if in doubt";
+  if (settings.maximum_iterations < 1)
+    return "HapticRenderer: Settings::maximum_iterations is less than 1, and the tool could not move; give 1 to 32";
+  if (settings.work_budget < 1)
+    return "HapticRenderer: Settings::work_budget is less than 1, and the tool could not move; leave the default if in doubt";
   return {};
 }
 
@@ -82,9 +85,11 @@ std::string reason_against_margin(const Settings<MeshScalar>& settings, const Sc
   if (!(margin >= least && margin <= most))
     return "HapticRenderer: Settings::margin is not a length of " + text(least) +
            " to 0.001 m; with less, rounding can carry the tool through a surface, and more is felt as a cushion; " +
-           (least <= Scalar(Settings<MeshScalar>().margin) ? "leave the default of 1 µm if in doubt" : "give such a margin, or all lengths in metres");
+           (least <= Scalar(Settings<MeshScalar>().margin) ? "leave the default of 1 µm if in doubt"
+                                                           : "give such a margin, or all lengths in metres");
   if (!(10 * rounding.of_poses() <= (is_narrow ? most : margin)))
-    return "HapticRenderer: the object reaches " + text(rounding.farthest) + " m from the origin, where poses are rounded to " + text(rounding.of_poses()) +
+    return "HapticRenderer: the object reaches " + text(rounding.farthest) + " m from the origin, where poses are rounded to " +
+           text(rounding.of_poses()) +
            (is_narrow ? " m; move the scene to the origin, or use double" : " m; move the scene to the origin, or give a larger margin");
   return {};
 }

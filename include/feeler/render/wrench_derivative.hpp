@@ -51,8 +51,7 @@ struct JacobianCoefficient {
     using std::sqrt;
     using std::tan;
     if (u < Scalar(1) / 4) {
-      value = Scalar(1) / 12 +
-              u * (Scalar(1) / 720 + u * (Scalar(1) / 30240 + u * (Scalar(1) / 1209600 + u / 47900160)));
+      value = Scalar(1) / 12 + u * (Scalar(1) / 720 + u * (Scalar(1) / 30240 + u * (Scalar(1) / 1209600 + u / 47900160)));
       derivative = Scalar(1) / 720 + u * (Scalar(1) / 15120 + u * (Scalar(1) / 403200 + u / 11975040));
     } else {
       const Scalar half = sqrt(u) / 2;
@@ -66,8 +65,7 @@ struct JacobianCoefficient {
 /// Derivative by φ of J⁻ᵀ(φ) W φ, the gradient of ½ φᵀ W φ, with the left Jacobian (side = 1) or the right
 /// one (side = −1): Wφ + side/2 φ × Wφ + c φ × (φ × Wφ).
 template <class Scalar>
-Matrix3<Scalar> derivative_of_pull(const Vector3<Scalar>& weights, const Vector3<Scalar>& phi,
-                                   int side) noexcept {
+Matrix3<Scalar> derivative_of_pull(const Vector3<Scalar>& weights, const Vector3<Scalar>& phi, int side) noexcept {
   const Matrix3<Scalar> weight = weights.asDiagonal();
   const Vector3<Scalar> pull = weights.cwiseProduct(phi);
   const Matrix3<Scalar> cross = cross_matrix(phi);
@@ -75,8 +73,7 @@ Matrix3<Scalar> derivative_of_pull(const Vector3<Scalar>& weights, const Vector3
   const Vector3<Scalar> twice = phi.cross(once);
   const JacobianCoefficient<Scalar> c(phi.squaredNorm());
   return weight + Scalar(side) / 2 * (cross * weight - cross_matrix(pull)) +
-         c.value * (cross * (cross * weight - cross_matrix(pull)) - cross_matrix(once)) +
-         2 * c.derivative * twice * phi.transpose();
+         c.value * (cross * (cross * weight - cross_matrix(pull)) - cross_matrix(once)) + 2 * c.derivative * twice * phi.transpose();
 }
 
 /// The contacts that push, and how they share the force: what the optimisation needs of them is unique, its
@@ -103,8 +100,7 @@ class PushingRows {
     Scalar most(0);
     for (const auto& active : problem.solution().active) {
       if (active.row >= problem.row_count()) continue;
-      shares_.push_back(
-          {active.row, unit.cwiseProduct(problem.row(active.row).gradient()), active.multiplier});
+      shares_.push_back({active.row, unit.cwiseProduct(problem.row(active.row).gradient()), active.multiplier});
       pull += active.multiplier * shares_.back().gradient;
       most = (std::max)(most, active.multiplier);
     }
@@ -134,11 +130,8 @@ class PushingRows {
       for (const Share& share : shares_) sum += share.gradient * share.gradient.transpose();
       const Eigen::SelfAdjointEigenSolver<Matrix6<Scalar>> eigen(sum);
       Vector6<Scalar> inverse = eigen.eigenvalues();
-      for (int i = 0; i < 6; ++i)
-        inverse[i] = inverse[i] > inverse[5] * Scalar(1e-12) ? Scalar(1) / inverse[i] : Scalar(0);
-      const Vector6<Scalar> weights =
-          eigen.eigenvectors() *
-          inverse.cwiseProduct(Vector6<Scalar>(eigen.eigenvectors().transpose() * pull));
+      for (int i = 0; i < 6; ++i) inverse[i] = inverse[i] > inverse[5] * Scalar(1e-12) ? Scalar(1) / inverse[i] : Scalar(0);
+      const Vector6<Scalar> weights = eigen.eigenvectors() * inverse.cwiseProduct(Vector6<Scalar>(eigen.eigenvectors().transpose() * pull));
       int worst = -1;
       Vector6<Scalar> rest = pull;
       for (int i = 0; i < shares_.size(); ++i) {
@@ -172,10 +165,9 @@ class PushingRows {
 /// @cost  noexcept, no allocation; a factorisation and some eigenvalues of 6×6 matrices: half of a tick in the cavity, a
 ///        fifth of one on terrain
 template <RigidTool Tool, QpSolver Solver, class Method>
-requires HasStepProblem<typename HapticRenderer<Tool, Solver, Method>::Follower>
-    WrenchDerivative<typename HapticRenderer<Tool, Solver, Method>::Working> wrench_derivative(
-        const HapticRenderer<Tool, Solver, Method>& renderer)
-noexcept {
+  requires HasStepProblem<typename HapticRenderer<Tool, Solver, Method>::Follower>
+WrenchDerivative<typename HapticRenderer<Tool, Solver, Method>::Working> wrench_derivative(
+    const HapticRenderer<Tool, Solver, Method>& renderer) noexcept {
   using std::sqrt;
   using Scalar = typename HapticRenderer<Tool, Solver, Method>::Working;
   WrenchDerivative<Scalar> result;
@@ -186,11 +178,9 @@ noexcept {
   const Metric<Scalar>& metric = renderer.metric();
   const Vector3<Scalar> stiffness = settings.stiffness.translational.template cast<Scalar>();
   const Vector3<Scalar> rotational_stiffness = settings.stiffness.rotational.template cast<Scalar>();
-  const Vector3<Scalar> phi =
-      motion_between(renderer.follower().target(), renderer.follower().pose()).angular;
+  const Vector3<Scalar> phi = motion_between(renderer.follower().target(), renderer.follower().pose()).angular;
   const Matrix3<Scalar> by_graphic = inverse_left_jacobian<Scalar>(phi);  // dφ by a turn of the graphic tool
-  const Matrix3<Scalar> by_haptic =
-      -inverse_left_jacobian<Scalar>(Vector3<Scalar>(-phi));  // and of the haptic tool
+  const Matrix3<Scalar> by_haptic = -inverse_left_jacobian<Scalar>(Vector3<Scalar>(-phi));  // and of the haptic tool
 
   // The energy: second derivatives by the steps of both tools.
   const Matrix3<Scalar> bend = detail::derivative_of_pull<Scalar>(metric.rotational, phi, 1);
@@ -218,23 +208,17 @@ noexcept {
     Vector6<Scalar> rest = share.gradient - across * share.gradient;
     rest -= across * rest;  // once more, against rounding
     const Scalar dependent = Scalar(1e-6);
-    if (rest.norm() > dependent * share.gradient.norm())
-      across += rest.normalized() * rest.normalized().transpose();
+    if (rest.norm() > dependent * share.gradient.norm()) across += rest.normalized() * rest.normalized().transpose();
   }
   if (!problem.is_solved()) across.setIdentity();  // the work ran out before the next step was known: the tool stays
   const Matrix6<Scalar> along = Matrix6<Scalar>::Identity() - across;
-  const auto scaled = [&](const Matrix6<Scalar>& m) {
-    return Matrix6<Scalar>(unit.asDiagonal() * m * unit.asDiagonal());
-  };
+  const auto scaled = [&](const Matrix6<Scalar>& m) { return Matrix6<Scalar>(unit.asDiagonal() * m * unit.asDiagonal()); };
   Eigen::LLT<Matrix6<Scalar>> factor(along * scaled(hessian - curvature) * along + across);
   constexpr Eigen::ComputationInfo success{};  // the enumerator's name is a macro of X11
   result.is_smooth = factor.info() == success && status == TickStatus::converged && !pushing.has_idle();
   if (factor.info() != success) factor.compute(along * scaled(hessian) * along + across);
-  if (factor.info() != success)
-    factor.compute(Matrix6<Scalar>::Identity());  // turned by π: as if in flat space
-  const Matrix6<Scalar> answer = unit.asDiagonal() *
-                                 Matrix6<Scalar>(along * factor.solve(along * scaled(mixed))) *
-                                 unit.cwiseInverse().asDiagonal();
+  if (factor.info() != success) factor.compute(Matrix6<Scalar>::Identity());  // turned by π: as if in flat space
+  const Matrix6<Scalar> answer = unit.asDiagonal() * Matrix6<Scalar>(along * factor.solve(along * scaled(mixed))) * unit.cwiseInverse().asDiagonal();
 
   const Matrix3<Scalar> twist = detail::derivative_of_pull<Scalar>(rotational_stiffness, phi, -1);
   Matrix6<Scalar> graphic = Matrix6<Scalar>::Zero();

@@ -21,9 +21,7 @@ struct Metric {
     const Scalar unit = stiffness.translational.maxCoeff();
     return {stiffness.translational / unit, stiffness.rotational / unit};
   }
-  static Metric with_length(Scalar length) noexcept {
-    return {Vector3<Scalar>::Ones(), Vector3<Scalar>::Constant(length * length)};
-  }
+  static Metric with_length(Scalar length) noexcept { return {Vector3<Scalar>::Ones(), Vector3<Scalar>::Constant(length * length)}; }
 
   /// Of M.
   Vector6<Scalar> diagonal() const noexcept {
@@ -45,8 +43,7 @@ struct Metric {
     const Vector3<Scalar> torque = rotational.cwiseProduct(e.angular);
     g.template head<3>() = translational.cwiseProduct(e.linear);
     // J⁻ᵀ φ = φ, so an isotropic weight needs no Jacobian.
-    g.template tail<3>() =
-        is_isotropic() ? torque : Vector3<Scalar>(inverse_left_jacobian<Scalar>(e.angular).transpose() * torque);
+    g.template tail<3>() = is_isotropic() ? torque : Vector3<Scalar>(inverse_left_jacobian<Scalar>(e.angular).transpose() * torque);
     return g;
   }
 
@@ -74,9 +71,7 @@ struct Metric {
   /// Hessian of the quadratic that has this gradient and its minimum at −e, where the motion home ends: M, or Gauss–Newton's.
   Matrix6<Scalar> homing_hessian(const Twist<Scalar>& e) const noexcept { return is_isotropic() ? hessian({}) : hessian(e); }
 
-  bool is_isotropic() const noexcept {
-    return rotational.x() == rotational.y() && rotational.y() == rotational.z();
-  }
+  bool is_isotropic() const noexcept { return rotational.x() == rotational.y() && rotational.y() == rotational.z(); }
 
   template <class Other>
   Metric<Other> cast() const noexcept {

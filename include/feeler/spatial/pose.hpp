@@ -16,9 +16,7 @@ struct Pose {
   Vector3<Scalar> translation = Vector3<Scalar>::Zero();
   Quaternion<Scalar> rotation = Quaternion<Scalar>::Identity();
 
-  Vector3<Scalar> operator*(const Vector3<Scalar>& point_tool) const noexcept {
-    return translation + rotation * point_tool;
-  }
+  Vector3<Scalar> operator*(const Vector3<Scalar>& point_tool) const noexcept { return translation + rotation * point_tool; }
   /// Of a frame that is given in this one: `world_from_tip = world_from_tool * tool_from_tip`.
   Pose operator*(const Pose& inner) const noexcept { return {*this * inner.translation, rotation * inner.rotation}; }
   /// Of the outer frame in this one, `tool_from_world`; the quaternion must be unit.

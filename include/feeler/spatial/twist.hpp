@@ -14,9 +14,7 @@ struct Twist {
   Vector3<Scalar> linear = Vector3<Scalar>::Zero();
   Vector3<Scalar> angular = Vector3<Scalar>::Zero();
 
-  static Twist from_vector(const Vector6<Scalar>& v) noexcept {
-    return {v.template head<3>(), v.template tail<3>()};
-  }
+  static Twist from_vector(const Vector6<Scalar>& v) noexcept { return {v.template head<3>(), v.template tail<3>()}; }
   Vector6<Scalar> vector() const noexcept {
     Vector6<Scalar> v;
     v << linear, angular;
@@ -41,8 +39,7 @@ struct Displacement {
 /// The pose after the motion: origin p + linear, axes Exp(angular) R.
 template <class Scalar>
 Pose<Scalar> moved(const Pose<Scalar>& pose, const Twist<Scalar>& motion) noexcept {
-  return {pose.translation + motion.linear,
-          (exp_rotation(motion.angular) * pose.rotation).normalized()};
+  return {pose.translation + motion.linear, (exp_rotation(motion.angular) * pose.rotation).normalized()};
 }
 
 /// The motion from one pose to another: e = (p₁ − p₀, Log(R₁ R₀ᵀ)).

@@ -71,8 +71,7 @@ class Quickhull {
   int add_face(int a, int b, int c) {
     Face face;
     face.triangle.corners = {a, b, c};
-    face.triangle.plane =
-        LatticePlane(points_[std::size_t(a)], points_[std::size_t(b)], points_[std::size_t(c)]);
+    face.triangle.plane = LatticePlane(points_[std::size_t(a)], points_[std::size_t(b)], points_[std::size_t(c)]);
     faces_.push_back(std::move(face));
     return int(faces_.size()) - 1;
   }
@@ -112,10 +111,8 @@ class Quickhull {
     }
     Face& face = faces_[std::size_t(best)];
     face.outside.push_back(point);
-    if (best_height > face.farthest_height)
-      face.farthest_height = best_height;
-    else
-      std::swap(face.outside.back(), face.outside[face.outside.size() - 2]);
+    if (best_height > face.farthest_height) face.farthest_height = best_height;
+    else std::swap(face.outside.back(), face.outside[face.outside.size() - 2]);
   }
 
   /// Extends the hull to the farthest point of a face.
@@ -125,8 +122,7 @@ class Quickhull {
     find_horizon(face, apex);
 
     const int first_new = int(faces_.size());
-    for (const HorizonEdge& edge : horizon_)
-      face_from_[std::size_t(edge.start)] = add_face(edge.start, edge.end, apex);
+    for (const HorizonEdge& edge : horizon_) face_from_[std::size_t(edge.start)] = add_face(edge.start, edge.end, apex);
     for (const HorizonEdge& edge : horizon_) {
       const int current = face_from_[std::size_t(edge.start)];
       const int next = face_from_[std::size_t(edge.end)];

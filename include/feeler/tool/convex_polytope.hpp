@@ -94,8 +94,7 @@ class ConvexPolytope {
   ToolEdge edge(int i) const noexcept { return edges_[std::size_t(i)]; }
   int face_count() const noexcept { return int(normals_.size()); }
   ToolFace<Scalar> face(int i) const noexcept {
-    const auto begin = std::size_t(face_begin_[std::size_t(i)]),
-               end = std::size_t(face_begin_[std::size_t(i) + 1]);
+    const auto begin = std::size_t(face_begin_[std::size_t(i)]), end = std::size_t(face_begin_[std::size_t(i) + 1]);
     return {normals_[std::size_t(i)], std::span<const int>(face_corners_.data() + begin, end - begin)};
   }
   int edge_direction_count() const noexcept { return int(edge_directions_.size()); }
@@ -154,16 +153,12 @@ class ConvexPolytope {
         return;
       }
       using std::ldexp;
-      const auto on_lattice = [&](const Working& x) {
-        return static_cast<std::int64_t>(ldexp(Working(x / side), detail::lattice_bits));
-      };
+      const auto on_lattice = [&](const Working& x) { return static_cast<std::int64_t>(ldexp(Working(x / side), detail::lattice_bits)); };
       points.reserve(std::size_t(wide.rows()));
       for (int i = 0; i < int(wide.rows()); ++i)
-        points.push_back({on_lattice(wide(i, 0) - lower[0]), on_lattice(wide(i, 1) - lower[1]),
-                          on_lattice(wide(i, 2) - lower[2])});
+        points.push_back({on_lattice(wide(i, 0) - lower[0]), on_lattice(wide(i, 1) - lower[1]), on_lattice(wide(i, 2) - lower[2])});
       const Working size = (sides / side).norm() + wide.cwiseAbs().maxCoeff() / side;
-      tolerance = static_cast<long double>(
-          ldexp(Working(4 * Working(std::numeric_limits<Scalar>::epsilon()) * size), detail::lattice_bits));
+      tolerance = static_cast<long double>(ldexp(Working(4 * Working(std::numeric_limits<Scalar>::epsilon()) * size), detail::lattice_bits));
       tolerance = (std::max)(tolerance, 4.0L);
     }
 
@@ -174,8 +169,7 @@ class ConvexPolytope {
       std::int64_t longest = -1;
       for (const auto axis : {&detail::LatticePoint::x, &detail::LatticePoint::y, &detail::LatticePoint::z}) {
         const auto [low, high] =
-            std::minmax_element(corners.begin(), corners.end(),
-                                [axis](const auto& a, const auto& b) { return a.*axis < b.*axis; });
+            std::minmax_element(corners.begin(), corners.end(), [axis](const auto& a, const auto& b) { return a.*axis < b.*axis; });
         if ((*high).*axis - (*low).*axis <= longest) continue;
         longest = (*high).*axis - (*low).*axis;
         result[0] = int(low - corners.begin());
@@ -205,20 +199,16 @@ class ConvexPolytope {
           result[3] = int(i);
         }
       }
-      if (!(thickness > tolerance))
-        reason = "ConvexPolytope: all points are in one plane; give points with a volume, for a sheet two layers of them";
+      if (!(thickness > tolerance)) reason = "ConvexPolytope: all points are in one plane; give points with a volume, for a sheet two layers of them";
       return result;
     }
 
-    static long double square(std::int64_t x) {
-      return static_cast<long double>(x) * static_cast<long double>(x);
-    }
+    static long double square(std::int64_t x) { return static_cast<long double>(x) * static_cast<long double>(x); }
   };
 
   ConvexPolytope() = default;
 
-  ConvexPolytope(const Points<Scalar>& points, const std::vector<int>& rows,
-                 const std::vector<detail::HullFace>& faces) {
+  ConvexPolytope(const Points<Scalar>& points, const std::vector<int>& rows, const std::vector<detail::HullFace>& faces) {
     Points<Scalar> corners(Eigen::Index(rows.size()), 3);
     for (std::size_t i = 0; i < rows.size(); ++i) corners.row(Eigen::Index(i)) = points.row(rows[i]);
     vertices_ = SupportBlocks<Scalar>(corners);
@@ -226,10 +216,8 @@ class ConvexPolytope {
     std::vector<std::pair<long double, Vector3<Working>>> axes, directions;  // size, unit direction
     face_begin_.push_back(0);
     for (const detail::HullFace& face : faces) {
-      const long double length = std::sqrt(face.normal[0] * face.normal[0] + face.normal[1] * face.normal[1] +
-                                           face.normal[2] * face.normal[2]);
-      const Vector3<Working> normal(static_cast<Working>(face.normal[0] / length),
-                                    static_cast<Working>(face.normal[1] / length),
+      const long double length = std::sqrt(face.normal[0] * face.normal[0] + face.normal[1] * face.normal[1] + face.normal[2] * face.normal[2]);
+      const Vector3<Working> normal(static_cast<Working>(face.normal[0] / length), static_cast<Working>(face.normal[1] / length),
                                     static_cast<Working>(face.normal[2] / length));
       normals_.push_back(normal.template cast<Scalar>());
       axes.emplace_back(length, normal);
@@ -239,8 +227,7 @@ class ConvexPolytope {
         const ToolEdge edge{face.corners[i], face.corners[(i + 1) % face.corners.size()]};
         if (edge.start > edge.end) continue;  // the other face lists it
         edges_.push_back(edge);
-        const Vector3<Working> along =
-            (vertex(edge.end).template cast<Working>() - vertex(edge.start).template cast<Working>());
+        const Vector3<Working> along = (vertex(edge.end).template cast<Working>() - vertex(edge.start).template cast<Working>());
         directions.emplace_back(static_cast<long double>(along.norm()), along.normalized());
       }
     }
@@ -251,17 +238,14 @@ class ConvexPolytope {
 
   /// One of each set of directions that are parallel to rounding: that of the largest feature, which is the
   /// most exact.
-  static std::vector<Vector3<Scalar>> without_parallels(
-      std::vector<std::pair<long double, Vector3<Working>>>& directions) {
+  static std::vector<Vector3<Scalar>> without_parallels(std::vector<std::pair<long double, Vector3<Working>>>& directions) {
     const Working tolerance = 32 * Working(std::numeric_limits<Scalar>::epsilon());
-    std::stable_sort(directions.begin(), directions.end(),
-                     [](const auto& a, const auto& b) { return a.first > b.first; });
+    std::stable_sort(directions.begin(), directions.end(), [](const auto& a, const auto& b) { return a.first > b.first; });
     std::vector<Vector3<Working>> kept;
     std::vector<Vector3<Scalar>> result;
     for (const auto& [size, direction] : directions) {
-      const bool is_new = std::none_of(kept.begin(), kept.end(), [&d = direction, tolerance](const auto& k) {
-        return k.cross(d).squaredNorm() <= tolerance * tolerance;
-      });
+      const bool is_new = std::none_of(kept.begin(), kept.end(),
+                                       [&d = direction, tolerance](const auto& k) { return k.cross(d).squaredNorm() <= tolerance * tolerance; });
       if (!is_new) continue;
       kept.push_back(direction);
       result.push_back(direction.template cast<Scalar>());

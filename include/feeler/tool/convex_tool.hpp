@@ -29,20 +29,19 @@ struct ToolFace {
 /// `face_axis(i)`, i < `face_axis_count()`, the face normals without repeating opposite ones: separating axes need no more.
 /// All calls are noexcept, allocate nothing, and cost O(vertex_count) at most.
 template <class T>
-concept ConvexTool = RealScalar<typename T::Scalar> &&
-                     requires(const T& tool, const Vector3<typename T::Scalar>& direction, int i) {
-                       { tool.vertex_count() } noexcept -> std::same_as<int>;
-                       { tool.vertex(i) } noexcept -> std::convertible_to<Vector3<typename T::Scalar>>;
-                       { tool.support(direction) } noexcept -> std::same_as<int>;
-                       { tool.edge_count() } noexcept -> std::same_as<int>;
-                       { tool.edge(i) } noexcept -> std::convertible_to<ToolEdge>;
-                       { tool.face_count() } noexcept -> std::same_as<int>;
-                       { tool.face(i) } noexcept -> std::convertible_to<ToolFace<typename T::Scalar>>;
-                       { tool.edge_direction_count() } noexcept -> std::same_as<int>;
-                       { tool.edge_direction(i) } noexcept -> std::convertible_to<Vector3<typename T::Scalar>>;
-                       { tool.face_axis_count() } noexcept -> std::same_as<int>;
-                       { tool.face_axis(i) } noexcept -> std::convertible_to<Vector3<typename T::Scalar>>;
-                     };
+concept ConvexTool = RealScalar<typename T::Scalar> && requires(const T& tool, const Vector3<typename T::Scalar>& direction, int i) {
+  { tool.vertex_count() } noexcept -> std::same_as<int>;
+  { tool.vertex(i) } noexcept -> std::convertible_to<Vector3<typename T::Scalar>>;
+  { tool.support(direction) } noexcept -> std::same_as<int>;
+  { tool.edge_count() } noexcept -> std::same_as<int>;
+  { tool.edge(i) } noexcept -> std::convertible_to<ToolEdge>;
+  { tool.face_count() } noexcept -> std::same_as<int>;
+  { tool.face(i) } noexcept -> std::convertible_to<ToolFace<typename T::Scalar>>;
+  { tool.edge_direction_count() } noexcept -> std::same_as<int>;
+  { tool.edge_direction(i) } noexcept -> std::convertible_to<Vector3<typename T::Scalar>>;
+  { tool.face_axis_count() } noexcept -> std::same_as<int>;
+  { tool.face_axis(i) } noexcept -> std::convertible_to<Vector3<typename T::Scalar>>;
+};
 
 /// The support function of a tool, max direction · x over its points x, of a swept tool over its core [m]. A tool that finds it faster than the
 /// vertex has a member `highest(direction)`.

@@ -25,14 +25,12 @@ struct HullFace {
 /// @cost  O(n log n) in the triangles
 class HullFaces {
  public:
-  HullFaces(const std::vector<LatticePoint>& points, const std::vector<HullTriangle>& triangles,
-            long double tolerance)
+  HullFaces(const std::vector<LatticePoint>& points, const std::vector<HullTriangle>& triangles, long double tolerance)
       : points_(points), triangles_(triangles), tolerance_(tolerance), face_of_(triangles.size(), -1) {
     std::vector<int> order(triangles.size());
     std::iota(order.begin(), order.end(), 0);
-    std::stable_sort(order.begin(), order.end(), [&](int a, int b) {
-      return triangles[std::size_t(a)].plane.length() > triangles[std::size_t(b)].plane.length();
-    });
+    std::stable_sort(order.begin(), order.end(),
+                     [&](int a, int b) { return triangles[std::size_t(a)].plane.length() > triangles[std::size_t(b)].plane.length(); });
     for (const int seed : order) {
       if (face_of_[std::size_t(seed)] >= 0) continue;
       regions_.push_back(grow(seed));
@@ -88,8 +86,7 @@ class HullFaces {
 
   bool lies_in(const HullTriangle& triangle, const LatticePlane& plane) const {
     if (!(dot(triangle.plane.normal(), plane.normal()) > 0)) return false;
-    return std::all_of(triangle.corners.begin(), triangle.corners.end(),
-                       [&](int v) { return plane.height(points_[std::size_t(v)]) >= -tolerance_; });
+    return std::all_of(triangle.corners.begin(), triangle.corners.end(), [&](int v) { return plane.height(points_[std::size_t(v)]) >= -tolerance_; });
   }
 
   /// The boundary of a region; empty if it is not one simple cycle through all of its vertices.
@@ -100,8 +97,7 @@ class HullFaces {
       const HullTriangle& triangle = triangles_[std::size_t(t)];
       for (std::size_t k = 0; k < 3; ++k) {
         const int neighbour = triangle.neighbours[k];
-        const bool is_inside =
-            region.size() > 1 && std::find(region.begin(), region.end(), neighbour) != region.end();
+        const bool is_inside = region.size() > 1 && std::find(region.begin(), region.end(), neighbour) != region.end();
         if (!is_inside) edges.emplace_back(triangle.corners[k], triangle.corners[(k + 1) % 3]);
         face.normal[k] += triangle.plane.normal()[k];
       }
@@ -128,8 +124,7 @@ class HullFaces {
     for (std::size_t i = 0; i < n; ++i) {
       const std::array<long double, 3> u = difference(face.corners[i], face.corners[(i + 1) % n]);
       const std::array<long double, 3> v = difference(face.corners[(i + 1) % n], face.corners[(i + 2) % n]);
-      const std::array<long double, 3> cross{u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2],
-                                             u[0] * v[1] - u[1] * v[0]};
+      const std::array<long double, 3> cross{u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]};
       const long double longest = std::sqrt((std::max)(dot(u.data(), u.data()), dot(v.data(), v.data())));
       if (dot(cross.data(), face.normal.data()) < -tolerance_ * longest * length) return false;
     }
@@ -139,12 +134,9 @@ class HullFaces {
   std::array<long double, 3> difference(int from, int to) const {
     const LatticePoint& a = points_[std::size_t(from)];
     const LatticePoint& b = points_[std::size_t(to)];
-    return {static_cast<long double>(b.x - a.x), static_cast<long double>(b.y - a.y),
-            static_cast<long double>(b.z - a.z)};
+    return {static_cast<long double>(b.x - a.x), static_cast<long double>(b.y - a.y), static_cast<long double>(b.z - a.z)};
   }
-  static long double dot(const long double* a, const long double* b) {
-    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-  }
+  static long double dot(const long double* a, const long double* b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
 
   const std::vector<LatticePoint>& points_;
   const std::vector<HullTriangle>& triangles_;

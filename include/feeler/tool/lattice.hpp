@@ -47,8 +47,7 @@ class LatticePlane {
   /// Height of a point above the plane in lattice units, to relative rounding.
   long double height(const LatticePoint& p) const noexcept {
     const Volume v = volume(p);
-    return (std::ldexp(static_cast<long double>(v.high), lattice_bits) + static_cast<long double>(v.low)) /
-           length_;
+    return (std::ldexp(static_cast<long double>(v.high), lattice_bits) + static_cast<long double>(v.low)) / length_;
   }
   /// The normal, to relative rounding of each component; its length is twice the area of the triangle.
   const long double* normal() const noexcept { return normal_; }

@@ -11,11 +11,10 @@ namespace feeler {
 
 /// A union of convex pieces in one tool frame; `maximum_pieces` bounds what a renderer keeps for each of them.
 template <class T>
-concept CompoundShape = RealScalar<typename T::Scalar> && ConvexTool<typename T::Piece> && (T::maximum_pieces > 0) &&
-                        requires(const T& tool, int i) {
-                          { tool.piece_count() } noexcept -> std::same_as<int>;
-                          { tool.piece(i) } noexcept -> std::same_as<const typename T::Piece&>;
-                        };
+concept CompoundShape = RealScalar<typename T::Scalar> && ConvexTool<typename T::Piece> && (T::maximum_pieces > 0) && requires(const T& tool, int i) {
+  { tool.piece_count() } noexcept -> std::same_as<int>;
+  { tool.piece(i) } noexcept -> std::same_as<const typename T::Piece&>;
+};
 
 /// What a renderer takes as a tool.
 template <class T>

@@ -28,9 +28,7 @@ class Segment {
   int vertex_count() const noexcept { return 2; }
   const Vector3<Scalar>& vertex(int i) const noexcept { return i == 0 ? start_ : end_; }
   /// @cost two dot products; exact comparison, so nearly equal ends may go either way
-  int support(const Vector3<Scalar>& direction) const noexcept {
-    return direction.dot(end_) > direction.dot(start_) ? 1 : 0;
-  }
+  int support(const Vector3<Scalar>& direction) const noexcept { return direction.dot(end_) > direction.dot(start_) ? 1 : 0; }
 
   int edge_count() const noexcept { return 1; }
   ToolEdge edge(int) const noexcept { return {0, 1}; }

@@ -92,8 +92,7 @@ using RoundedBox = SphereSwept<Box<Scalar>>;
 template <RealScalar Scalar>
 using RoundedPolytope = SphereSwept<ConvexPolytope<Scalar>>;
 
-static_assert(SweptTool<Sphere<double>> && SweptTool<Capsule<double>> && SweptTool<RoundedBox<double>> &&
-              SweptTool<RoundedPolytope<double>>);
+static_assert(SweptTool<Sphere<double>> && SweptTool<Capsule<double>> && SweptTool<RoundedBox<double>> && SweptTool<RoundedPolytope<double>>);
 static_assert(symmetry_of<Capsule<double>> == Symmetry::about_axis && symmetry_of<RoundedBox<double>> == Symmetry::none);
 static_assert(!SweptTool<Box<double>>);
 

@@ -36,9 +36,7 @@ int close(char id, bool is_in_drd) {
   return answer;
 }
 
-bool pushes() {
-  return device.is_force_on && device.force_off_cause == 0;
-}
+bool pushes() { return device.is_force_on && device.force_off_cause == 0; }
 
 void reset() {
   motors.told(0);
@@ -47,9 +45,7 @@ void reset() {
   device.reset = &reset;
 }
 
-bool is_any_of(int type, std::initializer_list<int> types) {
-  return std::find(types.begin(), types.end(), type) != types.end();
-}
+bool is_any_of(int type, std::initializer_list<int> types) { return std::find(types.begin(), types.end(), type) != types.end(); }
 
 }  // namespace
 
@@ -61,30 +57,18 @@ feeler_test::ForceDimensionStandIn* feeler_stand_in() {
   return &device;
 }
 
-int dhdOpen() {
-  return open_index(first_free);
-}
-int dhdOpenID(char index) {
-  return open_index(index == -1 ? first_free : index);
-}
-int dhdOpenSerial(int serial_number) {
-  return open_index(serial_number - 1000);
-}
-int dhdClose(char id) {
-  return close(id, false);
-}
+int dhdOpen() { return open_index(first_free); }
+int dhdOpenID(char index) { return open_index(index == -1 ? first_free : index); }
+int dhdOpenSerial(int serial_number) { return open_index(serial_number - 1000); }
+int dhdClose(char id) { return close(id, false); }
 
 int drdOpenID(char id) {
   if (device.is_unknown_to_drd) return -1;
   device.is_open_in_drd = true;
   return answer_for(id) < 0 ? -1 : id;
 }
-int drdClose(char id) {
-  return close(id, true);
-}
-bool drdIsInitialized(char id) {
-  return answer_for(id) == 0 && !device.needs_calibration;
-}
+int drdClose(char id) { return close(id, true); }
+bool drdIsInitialized(char id) { return answer_for(id) == 0 && !device.needs_calibration; }
 int drdAutoInit(char id) {
   if (device.fails_to_initialise) return -1;
   device.needs_calibration = false;
@@ -110,18 +94,10 @@ int dhdGetStatus(int* status, char id) {
   return answer_for(id);
 }
 
-int dhdGetDeviceCount() {
-  return device.device_count;
-}
-int dhdGetSystemType(char id) {
-  return answer_for(id) < 0 ? -1 : device.system_type;
-}
-bool dhdHasWrist(char) {
-  return !is_any_of(device.system_type, {33, 60, 63, 203, 206});
-}
-bool dhdHasActiveWrist(char) {
-  return is_any_of(device.system_type, {104, 105, 108, 109});
-}
+int dhdGetDeviceCount() { return device.device_count; }
+int dhdGetSystemType(char id) { return answer_for(id) < 0 ? -1 : device.system_type; }
+bool dhdHasWrist(char) { return !is_any_of(device.system_type, {33, 60, 63, 203, 206}); }
+bool dhdHasActiveWrist(char) { return is_any_of(device.system_type, {104, 105, 108, 109}); }
 
 int dhdGetPositionAndOrientationFrame(double* x, double* y, double* z, double (*frame)[3], char id) {
   if (answer_for(id) < 0) return -1;
@@ -133,12 +109,9 @@ int dhdGetPositionAndOrientationFrame(double* x, double* y, double* z, double (*
   return 0;
 }
 
-unsigned int dhdGetButtonMask(char) {
-  return device.buttons;
-}
+unsigned int dhdGetButtonMask(char) { return device.buttons; }
 
-int dhdSetForceAndTorqueAndGripperForce(double fx, double fy, double fz, double tx, double ty, double tz,
-                                        double gripper, char id) {
+int dhdSetForceAndTorqueAndGripperForce(double fx, double fy, double fz, double tx, double ty, double tz, double gripper, char id) {
   const int answer = answer_for(id);
   // A device that is unplugged holds what it was told last, for the worst case; its amplifiers lose power in
   // truth.
@@ -170,8 +143,6 @@ int dhdEnableForce(unsigned char value, char id) {
 }
 
 #ifndef FEELER_STAND_IN_LACKS_A_FUNCTION
-const char* dhdErrorGetLastStr() {
-  return device.is_unplugged ? "communication error" : "device not ready";
-}
+const char* dhdErrorGetLastStr() { return device.is_unplugged ? "communication error" : "device not ready"; }
 #endif
 }

@@ -44,8 +44,7 @@ struct ForceDimensionStandIn {
   bool is_open_in_drd = false;  // then drd closes it
   bool is_regulated = false;    // drd moves it
   int wrong_ids = 0;            // calls for another device than the one opened
-  int broken_rules =
-      0;  // force on without a calibration or under the regulation of drd, and a wrong way to close
+  int broken_rules = 0;  // force on without a calibration or under the regulation of drd, and a wrong way to close
 
   MotorLog* motors = nullptr;
   void (*reset)() = nullptr;

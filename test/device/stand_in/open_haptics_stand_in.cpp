@@ -42,13 +42,9 @@ void keep_rule(bool is_kept) {
   if (!is_kept) ++device.broken_rules;
 }
 
-bool is_initialised(unsigned int handle) {
-  return handle == first ? device.is_initialised : handle == second && device.is_second_initialised;
-}
+bool is_initialised(unsigned int handle) { return handle == first ? device.is_initialised : handle == second && device.is_second_initialised; }
 
-void fail(unsigned int code, unsigned int handle = current) {
-  errors.push_back({code, -1, handle});
-}
+void fail(unsigned int code, unsigned int handle = current) { errors.push_back({code, -1, handle}); }
 
 void let_go(unsigned int handle) {
   if (handle == second) return void(std::fill(device.second_force, device.second_force + 3, 0.0));
@@ -131,8 +127,7 @@ void hdBeginFrame(unsigned int handle) {
   ++device.frames;
   if (device.error_in_next_frame != 0) fail(std::exchange(device.error_in_next_frame, 0));
   if (device.error_in_every_frame != 0) fail(device.error_in_every_frame);
-  if (device.error_of_second_in_next_frame != 0)
-    fail(std::exchange(device.error_of_second_in_next_frame, 0), second);
+  if (device.error_of_second_in_next_frame != 0) fail(std::exchange(device.error_of_second_in_next_frame, 0), second);
 }
 
 void hdEndFrame(unsigned int handle) {
@@ -150,9 +145,7 @@ ErrorInformation hdGetError() {
   return error;
 }
 
-const char* hdGetErrorString(unsigned int) {
-  return "an error in the words of libHD";
-}
+const char* hdGetErrorString(unsigned int) { return "an error in the words of libHD"; }
 
 void hdEnable(unsigned int capability) {
   const Lock lock(device.mutex);
@@ -170,20 +163,11 @@ void hdGetIntegerv(unsigned int parameter, int* value) {
   const Lock lock(device.mutex);
   keep_rule(in_frame != nobody);
   switch (parameter) {
-    case 0x2000:
-      *value = device.buttons;
-      break;
-    case 0x2554:
-      *value = current == second ? 3 : device.output_degrees;
-      break;
-    case 0x2555:
-      *value = int(device.calibration_styles);
-      break;
-    case 0x2600:
-      *value = 1000;
-      break;
-    default:
-      fail(0x100);
+    case 0x2000: *value = device.buttons; break;
+    case 0x2554: *value = current == second ? 3 : device.output_degrees; break;
+    case 0x2555: *value = int(device.calibration_styles); break;
+    case 0x2600: *value = 1000; break;
+    default: fail(0x100);
   }
 }
 
@@ -191,18 +175,10 @@ void hdGetDoublev(unsigned int parameter, double* values) {
   const Lock lock(device.mutex);
   keep_rule(in_frame != nobody);
   switch (parameter) {
-    case 0x2052:
-      std::copy(device.transform, device.transform + 16, values);
-      break;
-    case 0x2602:
-      *values = 1.0;
-      break;
-    case 0x2603:
-      *values = 20.0;
-      break;
-    case 0x2604:
-      *values = 2.5;
-      break;
+    case 0x2052: std::copy(device.transform, device.transform + 16, values); break;
+    case 0x2602: *values = 1.0; break;
+    case 0x2603: *values = 20.0; break;
+    case 0x2604: *values = 2.5; break;
     case 0x2605:
       if (device.has_no_temperature) {
         fail(0x103);
@@ -210,14 +186,11 @@ void hdGetDoublev(unsigned int parameter, double* values) {
         std::copy(device.temperatures, device.temperatures + 6, values);
       }
       break;
-    default:
-      fail(0x100);
+    default: fail(0x100);
   }
 }
 
-const char* hdGetString(unsigned int parameter) {
-  return parameter == 0x2501 ? device.model : nullptr;
-}
+const char* hdGetString(unsigned int parameter) { return parameter == 0x2501 ? device.model : nullptr; }
 
 void hdSetDoublev(unsigned int parameter, const double* values) {
   const Lock lock(device.mutex);
@@ -248,8 +221,7 @@ unsigned int hdCheckCalibration() {
 
 void hdUpdateCalibration(unsigned int style) {
   const Lock lock(device.mutex);
-  keep_rule((style == 1) !=
-            device.is_scheduler_running);  // an encoder reset comes before the loop, all else in it
+  keep_rule((style == 1) != device.is_scheduler_running);  // an encoder reset comes before the loop, all else in it
   if (device.error_at_update != 0) return fail(device.error_at_update);
   if ((style & device.calibration_styles) == 0) return fail(0x100);
   device.calibrated_by = style;

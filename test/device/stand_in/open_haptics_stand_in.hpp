@@ -54,8 +54,7 @@ struct OpenHapticsStandIn {
 
   // Runs the scheduled frames once, as the servo thread does.
   void (*tick)() = nullptr;
-  bool own_thread =
-      false;  // set before the scheduler starts: frames run on a thread of the stand-in, once a millisecond
+  bool own_thread = false;  // set before the scheduler starts: frames run on a thread of the stand-in, once a millisecond
   MotorLog* motors = nullptr;
   void (*reset)() = nullptr;
 };

@@ -12,9 +12,7 @@ feeler_test::VirtuoseStandIn device;
 feeler_test::MotorLog motors;
 std::string address;
 
-int answer() {
-  return device.is_unplugged || !device.is_open ? -1 : 0;
-}
+int answer() { return device.is_unplugged || !device.is_open ? -1 : 0; }
 
 void reset() {
   motors.told(0);
@@ -47,33 +45,21 @@ int virtClose(void*) {
   return 0;
 }
 
-int virtGetErrorCode(void*) {
-  return device.refuses_to_open || device.is_unplugged ? 2 : 17;
-}
-const char* virtGetErrorMessage(int code) {
-  return code == 2 ? "communication failure" : "wrong mode";
-}
+int virtGetErrorCode(void*) { return device.refuses_to_open || device.is_unplugged ? 2 : 17; }
+const char* virtGetErrorMessage(int code) { return code == 2 ? "communication failure" : "wrong mode"; }
 
 int virtSetIndexingMode(void*, int mode) {
   device.indexing_mode = mode;
   return answer();
 }
-int virtSetForceFactor(void*, float factor) {
-  return factor == 1 ? answer() : -1;
-}
-int virtSetSpeedFactor(void*, float factor) {
-  return factor == 1 ? answer() : -1;
-}
+int virtSetForceFactor(void*, float factor) { return factor == 1 ? answer() : -1; }
+int virtSetSpeedFactor(void*, float factor) { return factor == 1 ? answer() : -1; }
 int virtSetTimeStep(void*, float step) {
   device.time_step = step;
   return answer();
 }
-int virtSetBaseFrame(void*, float*) {
-  return answer();
-}
-int virtSetObservationFrame(void*, float*) {
-  return answer();
-}
+int virtSetBaseFrame(void*, float*) { return answer(); }
+int virtSetObservationFrame(void*, float*) { return answer(); }
 
 int virtSetCommandType(void*, int type) {
   if (device.refuses_impedance) return -1;
@@ -120,8 +106,7 @@ int virtGetFailure(void*, unsigned int* failure) {
 // In ticks of a tenth of a microsecond; renewed every millisecond.
 int virtGetTimeLastUpdate(void*, unsigned int* ticks) {
   const auto now = std::chrono::steady_clock::now().time_since_epoch();
-  *ticks = static_cast<unsigned int>(1e7 * device.seconds_late) +
-           static_cast<unsigned int>(std::chrono::nanoseconds(now).count() % 1'000'000 / 100);
+  *ticks = static_cast<unsigned int>(1e7 * device.seconds_late) + static_cast<unsigned int>(std::chrono::nanoseconds(now).count() % 1'000'000 / 100);
   return answer();
 }
 
@@ -140,8 +125,7 @@ int virtGetButton(void*, int button, int* state) {
 int virtSetForce(void*, float* wrench) {
   if (answer() != 0) return -1;
   std::copy(wrench, wrench + 6, device.wrench);
-  motors.told(
-      double(std::hypot(wrench[0], wrench[1], wrench[2]) + std::hypot(wrench[3], wrench[4], wrench[5])));
+  motors.told(double(std::hypot(wrench[0], wrench[1], wrench[2]) + std::hypot(wrench[3], wrench[4], wrench[5])));
   return 0;
 }
 #endif

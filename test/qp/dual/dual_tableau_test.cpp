@@ -262,7 +262,8 @@ BOOST_AUTO_TEST_CASE_TEMPLATE(what_it_gives_up_the_solver_solves_and_goes_on_fro
   int given_up = 0;
   for (int i = 0; i < 2000; ++i) {
     Problem problem = feeler_test::general_problem(bits, 3 + i % 5, i % 4 == 0);
-    const Vector6 sum = Vector6(problem.rows[0]) + Vector6(problem.rows[1]);  // and one that faces two, and agrees with them only within the tolerance
+    const Vector6 sum =
+        Vector6(problem.rows[0]) + Vector6(problem.rows[1]);  // and one that faces two, and agrees with them only within the tolerance
     problem.add_row(-sum, -problem.bounds[0] - problem.bounds[1] + 2e-13);
     if (find(tableau, problem, 1e-14)) continue;
     feeler::QpSolution<double> solution;
@@ -275,8 +276,7 @@ BOOST_AUTO_TEST_CASE_TEMPLATE(what_it_gives_up_the_solver_solves_and_goes_on_fro
     const auto optimum = best_of_all_subsets(problem);
     BOOST_TEST_REQUIRE(optimum.has_value());
     BOOST_TEST(std::abs(cost(problem, solution.step) - optimum->cost) < 1e-6 * (1 + std::abs(optimum->cost)));
-    for (int k = 0; k < problem.row_count; ++k)
-      BOOST_TEST(problem.bounds[std::size_t(k)] - problem.rows[std::size_t(k)].dot(solution.step) < 1e-12);
+    for (int k = 0; k < problem.row_count; ++k) BOOST_TEST(problem.bounds[std::size_t(k)] - problem.rows[std::size_t(k)].dot(solution.step) < 1e-12);
   }
   BOOST_TEST_MESSAGE(given_up << " given up and solved");
   BOOST_TEST(given_up > 100);

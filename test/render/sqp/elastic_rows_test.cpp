@@ -117,13 +117,17 @@ BOOST_AUTO_TEST_CASE(random_rows_have_the_relaxation_that_a_search_finds) {
     }
     // min ½ |d|² + gᵀ d + price ξ is convex in ξ: no other does better, but for a thousandth of the price.
     const auto merit = [&](double relaxation) {
-      for (int k = 0; k < count; ++k) fit.problem.bounds[std::size_t(k)] = fit.rows.is_relaxed(k) ? std::max(hard, soft[std::size_t(k)] - relaxation) : soft[std::size_t(k)];
+      for (int k = 0; k < count; ++k)
+        fit.problem.bounds[std::size_t(k)] = fit.rows.is_relaxed(k) ? std::max(hard, soft[std::size_t(k)] - relaxation) : soft[std::size_t(k)];
       QpSolution<double> solution;
       if (fit.solver.solve(fit.problem, solution) != QpStatus::optimal) return std::numeric_limits<double>::infinity();
       return solution.step.squaredNorm() / 2 + fit.problem.gradient.dot(solution.step) + price * relaxation;
     };
     const double found = fit.solution.step.squaredNorm() / 2 + fit.problem.gradient.dot(fit.solution.step) + price * fit.rows.relaxation();
-    for (int k = 0; k <= 400; ++k) BOOST_TEST(found <= merit(fit.rows.relaxation_at_rest() * k / 400) + 2e-3 * price * fit.rows.relaxation_at_rest(), "problem " << i << " at " << k << ": " << found << " > " << merit(fit.rows.relaxation_at_rest() * k / 400) << ", " << fit.rows.relaxation() << " of " << fit.rows.relaxation_at_rest());
+    for (int k = 0; k <= 400; ++k)
+      BOOST_TEST(found <= merit(fit.rows.relaxation_at_rest() * k / 400) + 2e-3 * price * fit.rows.relaxation_at_rest(),
+                 "problem " << i << " at " << k << ": " << found << " > " << merit(fit.rows.relaxation_at_rest() * k / 400) << ", "
+                            << fit.rows.relaxation() << " of " << fit.rows.relaxation_at_rest());
     relaxed += fit.rows.relaxation() > 0;
   }
   BOOST_TEST(relaxed > 50);

@@ -39,7 +39,8 @@ struct Room {
 
   /// The cube stands a margin above the floor, and knows the triangles named.
   Room(double distance, std::initializer_list<int> triangles) : Room(floor_and_wall(distance), triangles) {}
-  Room(TriangleMesh<double> mesh, std::initializer_list<int> triangles) : object(std::move(mesh)), scene(object, tool, Settings<double>{}), lines(scene) {
+  Room(TriangleMesh<double> mesh, std::initializer_list<int> triangles)
+      : object(std::move(mesh)), scene(object, tool, Settings<double>{}), lines(scene) {
     for (const int t : triangles) lines.pairs().add(0, t, object.corners(t));
   }
   static Pose<double> stand(double x = 0) { return {{x, 0, half + 1e-6}, Eigen::Quaterniond::Identity()}; }

@@ -115,7 +115,8 @@ BOOST_AUTO_TEST_CASE(with_the_forces_of_the_last_step_steps_converge_quadratical
       problem.bend(metric, graphic_from_haptic);
     } else {
       const Problem::Guess guess = problem.bend_again(metric, graphic_from_haptic, 0.0);
-      BOOST_TEST_REQUIRE((guess == (steps == 1 ? Problem::Guess::close : Problem::Guess::right)));  // the first step is long, and the force becomes another
+      BOOST_TEST_REQUIRE(
+          (guess == (steps == 1 ? Problem::Guess::close : Problem::Guess::right)));  // the first step is long, and the force becomes another
       if (guess == Problem::Guess::close) problem.bend(metric, graphic_from_haptic);
       BOOST_TEST(!problem.is_free());
     }

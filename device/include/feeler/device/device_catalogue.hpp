@@ -25,7 +25,8 @@ std::optional<Maker> maker_named(std::string_view name) noexcept;
 /// Which device of a maker, and how to reach it. What is left empty is as usual: the first device, at its usual place.
 struct DeviceChoice {
   std::string library = {};        ///< file of the maker's library; not of Haply, which has none
-  std::string address = {};        ///< OpenHaptics: the name that its setup program gave it. Virtuose: "host#port". Haply: "host:port". Not of Force Dimension
+  std::string address =
+      {};        ///< OpenHaptics: the name that its setup program gave it. Virtuose: "host#port". Haply: "host:port". Not of Force Dimension
   std::string serial_number = {};  ///< of one of several; goes before the index. Force Dimension: a number. Haply: the `device_id`
   std::optional<int> index = {};   ///< of one of several, from 0. Force Dimension, Haply
   bool initialises = false;        ///< lets a device that is not calibrated move by itself, so hands off. Force Dimension

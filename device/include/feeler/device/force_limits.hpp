@@ -16,8 +16,7 @@ struct ForceLimits {
   double force_slew = 0;   ///< fastest growth of the force; at most the maximum in a millisecond [N/s]
   double torque_slew = 0;  ///< fastest growth of the torque; at most the maximum in a millisecond [N·m/s]
 
-  double free_force =
-      0;  ///< a pose counts as free where the renderer wants less; at most a tenth of the maximum [N]
+  double free_force = 0;  ///< a pose counts as free where the renderer wants less; at most a tenth of the maximum [N]
   double free_torque = 0;  ///< the same of the torque [N·m]
 
   double ramp_time = 0.3;    ///< from nothing to the whole force, once the pose is free; at least 0.05 [s]
@@ -26,8 +25,7 @@ struct ForceLimits {
       0.003;  ///< longest time between two poses, and for which one may stay the latest; 0.0005 to 25 ticks at the device's slowest rate [s]
 
   double heating_time = 10;  ///< time constant of the motors' heating; 1 to 100 [s]
-  double warm_temperature =
-      0.8;  ///< share of the motors' highest temperature from which on the force shrinks; 0 to 0.95
+  double warm_temperature = 0.8;  ///< share of the motors' highest temperature from which on the force shrinks; 0 to 0.95
 };
 
 /// The limits that suit a device: its own figures, growth to the maximum in 10 ms, free below 2 % of the

@@ -54,8 +54,7 @@ struct ForceReport {
   double peak_torque = 0;            ///< pushed [N·m]
   double peak_force_heat = 0;        ///< 1 is what the continuous force heats the motors to, in the end
   double peak_torque_heat = 0;
-  std::int64_t ticks_without_torque =
-      0;                        ///< in which the renderer wanted a torque that the device has no motors for
+  std::int64_t ticks_without_torque = 0;                        ///< in which the renderer wanted a torque that the device has no motors for
   double peak_lost_torque = 0;  ///< the largest of those torques [N·m]
 };
 

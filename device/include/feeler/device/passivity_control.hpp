@@ -34,8 +34,7 @@ PassivitySettings passivity_of(const DeviceSpecification& device, double period)
 
 /// What an observer saw and a controller did.
 struct PassivityReport {
-  double energy =
-      0;  ///< taken from the hand since the last free pose [J]; negative: given to it. Of all axes
+  double energy = 0;  ///< taken from the hand since the last free pose [J]; negative: given to it. Of all axes
   double lowest_energy = 0;  ///< the least of it, or with `each_axis` of any axis [J]
   double dissipated = 0;     ///< by the added damping, at the velocities known when it was added [J]
   std::int64_t ticks_damped = 0;

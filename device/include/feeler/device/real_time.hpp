@@ -8,20 +8,20 @@ namespace feeler {
 
 /// What to ask the system for.
 struct RealTimeRequest {
-  bool fifo = true;         ///< SCHED_FIFO, before every ordinary thread; the kernel's own threads stay above 80. On Windows a time-critical thread
-  int priority = 80;        ///< of SCHED_FIFO, 1 to 99
+  bool fifo = true;  ///< SCHED_FIFO, before every ordinary thread; the kernel's own threads stay above 80. On Windows a time-critical thread
+  int priority = 80;  ///< of SCHED_FIFO, 1 to 99
   bool lock_memory = true;  ///< keep the memory of the whole process from being paged out
-  int processor = -1;       ///< run on this one only; −1 runs on any
+  int processor = -1;  ///< run on this one only; −1 runs on any
 };
 
 /// What the system granted, and a sentence for everything it refused.
 struct RealTimeSetup {
-  std::string kernel;             ///< release
-  bool is_preempt_rt = false;     ///< a kernel with bounded latency
-  std::string policy;             ///< "SCHED_FIFO", "SCHED_OTHER", …
-  int priority = 0;               ///< real-time priority; 0 for ordinary threads
+  std::string kernel;  ///< release
+  bool is_preempt_rt = false;  ///< a kernel with bounded latency
+  std::string policy;  ///< "SCHED_FIFO", "SCHED_OTHER", …
+  int priority = 0;  ///< real-time priority; 0 for ordinary threads
   bool is_memory_locked = false;  ///< by this call
-  std::vector<int> processors;    ///< that the thread may run on
+  std::vector<int> processors;  ///< that the thread may run on
   std::vector<std::string> refused;  ///< each names what was refused, why, and the command that grants it
 };
 

@@ -29,15 +29,15 @@ struct ServoSettings {
 
   std::optional<ForceLimits> force_limits = {};  ///< of a loop with a device; none are those that suit the device
   std::optional<PassivitySettings> passivity = {};  ///< of a loop with a device: damps the renderer's wish before `ForceSafety`; none does not exist
-  SessionRecorder* recorder = nullptr;           ///< of a loop with a device: takes every tick; outlives the loop
+  SessionRecorder* recorder = nullptr;  ///< of a loop with a device: takes every tick; outlives the loop
 };
 
 /// What a callback is told about its tick.
 struct ServoTick {
-  std::int64_t index = 0;   ///< 0, 1, 2, …
+  std::int64_t index = 0;  ///< 0, 1, 2, …
   std::int64_t missed = 0;  ///< deadlines skipped just before this one
-  double time = 0;          ///< of its deadline, since the first one [s]; without waiting, of its start
-  std::int64_t late = 0;    ///< from its deadline to its start [ns]; 0 without waiting
+  double time = 0;  ///< of its deadline, since the first one [s]; without waiting, of its start
+  std::int64_t late = 0;  ///< from its deadline to its start [ns]; 0 without waiting
 };
 
 /// Runs a callback at a rate, with absolute deadlines, on a thread of its own.
@@ -106,7 +106,7 @@ class ServoLoop {
   std::unique_ptr<PassivityControl> passivity_;
   std::unique_ptr<ForceSafety> safety_;
   std::unique_ptr<ForceWatchdog> watchdog_;
-  bool is_let_go_ = false;        // by the watchdog, and not even the rest of a fade may be pushed
+  bool is_let_go_ = false;  // by the watchdog, and not even the rest of a fade may be pushed
   ForceSafety::Tick force_tick_;  // of the loop's thread
   std::atomic<ForceRequest> force_request_ = ForceRequest::none;
   std::atomic<ForcePhase> force_phase_ = ForcePhase::waiting;

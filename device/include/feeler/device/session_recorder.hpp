@@ -66,17 +66,14 @@ SessionRecording load_session(const std::filesystem::path& file);
 /// How a replay went.
 struct Replay {
   std::size_t ticks = 0;
-  std::int64_t first_other_wish =
-      -1;  ///< tick in which the renderer wanted another wrench than recorded; −1 if in none
-  std::int64_t first_other_push =
-      -1;  ///< tick in which the motors would have got another wrench; −1 if in none
+  std::int64_t first_other_wish = -1;  ///< tick in which the renderer wanted another wrench than recorded; −1 if in none
+  std::int64_t first_other_push = -1;  ///< tick in which the motors would have got another wrench; −1 if in none
 
   bool is_exact() const noexcept { return first_other_wish < 0 && first_other_push < 0; }
 };
 
 /// Runs a recording through the safety again, and through a renderer if one is given; wrenches are compared
 /// bit for bit. The ticks are rendered in which the loop rendered.
-Replay replay(const SessionRecording& recording,
-              const std::function<DeviceWrench(const DeviceState&)>& render = nullptr);
+Replay replay(const SessionRecording& recording, const std::function<DeviceWrench(const DeviceState&)>& render = nullptr);
 
 }  // namespace feeler

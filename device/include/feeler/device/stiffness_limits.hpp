@@ -18,8 +18,7 @@ namespace feeler {
 /// @param virtual_damping  B, rendered with the wall [N·s/m]; it takes from the bound whatever its sign
 /// @param delay            between the tick of the pose and the push of its wrench [ticks]
 /// @return [N/m]; 0 where the damping does not even cover B
-constexpr double passive_stiffness(double damping, double period, double virtual_damping = 0,
-                                   double delay = 0) noexcept {
+constexpr double passive_stiffness(double damping, double period, double virtual_damping = 0, double delay = 0) noexcept {
   const double left = damping - (virtual_damping < 0 ? -virtual_damping : virtual_damping);
   return left > 0 ? left / (period * (0.5 + delay)) : 0;
 }

@@ -50,13 +50,9 @@ class WorkspaceMap {
   bool is_clutched() const noexcept { return is_clutched_; }
 
   /// The stiffness for the renderer with which the hand feels this one [N/m].
-  double scene_stiffness(double device_stiffness) const noexcept {
-    return device_stiffness / settings_.scale;
-  }
+  double scene_stiffness(double device_stiffness) const noexcept { return device_stiffness / settings_.scale; }
   /// The same of rotations [N·m/rad].
-  double scene_rotational_stiffness(double device_stiffness) const noexcept {
-    return device_stiffness * settings_.scale;
-  }
+  double scene_rotational_stiffness(double device_stiffness) const noexcept { return device_stiffness * settings_.scale; }
 
  private:
   DevicePose mapped(const DevicePose& device) const noexcept;

@@ -28,7 +28,6 @@ struct ExtrapolationLimits {
 /// Contacts push and never pull: where the force has turned against the one rendered, the part against it is
 /// dropped, and so of the torque. What the renderer has not met yet is not felt before its next tick.
 /// @return finite for finite arguments; no allocation
-DeviceWrench extrapolated(const WrenchModel& model, const DevicePose& pose,
-                          const ExtrapolationLimits& limits = {}) noexcept;
+DeviceWrench extrapolated(const WrenchModel& model, const DevicePose& pose, const ExtrapolationLimits& limits = {}) noexcept;
 
 }  // namespace feeler

@@ -211,8 +211,7 @@ class ActiveOperators {
   void spread_diagonal() noexcept {
 #pragma GCC unroll 6
     for (int j = 0; j < 6; ++j) {
-      for (int g = 0; g < 6; g += lanes)
-        store(&projector_[index(j)][index(g)], with_lane<Scalar, lanes>(Group{}, j - g, diagonal_[index(j)]));
+      for (int g = 0; g < 6; g += lanes) store(&projector_[index(j)][index(g)], with_lane<Scalar, lanes>(Group{}, j - g, diagonal_[index(j)]));
     }
   }
 
@@ -239,8 +238,7 @@ class ActiveOperators {
   }
 
   /// The first `count` rows of a matrix times a vector.
-  static void multiply_columns(const Columns& columns, int count, const SixGroups& at,
-                               Column& image) noexcept {
+  static void multiply_columns(const Columns& columns, int count, const SixGroups& at, Column& image) noexcept {
     for (std::size_t g = 0; g < index(count); g += std::size_t(lanes)) {
       SixGroups column;
 #pragma GCC unroll 6
@@ -248,8 +246,7 @@ class ActiveOperators {
       store(&image[g], dot_of_six<Group>(column, at));
     }
   }
-  static void subtract_outer(Columns& columns, int count, const Column& left,
-                             const Six<Scalar>& right) noexcept {
+  static void subtract_outer(Columns& columns, int count, const Column& left, const Six<Scalar>& right) noexcept {
     for (std::size_t g = 0; g < index(count); g += std::size_t(lanes)) {
       const Group entries = load<Group>(&left[g]);
 #pragma GCC unroll 6

@@ -37,8 +37,7 @@ Scalar smallest_weight() noexcept {
 template <class Scalar, int lanes>
 Lanes<Scalar, lanes> only_rows(const Lanes<Scalar, lanes>& violation, int count) noexcept {
   if constexpr (lanes > 1) {
-    if (count < lanes)
-      return first_lanes<Scalar, lanes>(count) ? violation : spread<Lanes<Scalar, lanes>>(-std::numeric_limits<Scalar>::infinity());
+    if (count < lanes) return first_lanes<Scalar, lanes>(count) ? violation : spread<Lanes<Scalar, lanes>>(-std::numeric_limits<Scalar>::infinity());
   }
   return violation;
 }
@@ -69,7 +68,7 @@ class BestRow {
 /// last nine bits of its score. So one maximum finds both, whatever the order in which rows are met; scores
 /// that agree in all other bits count as equal, and the last such row wins.
 template <RealScalar Scalar, int lanes>
-requires has_lanes<Scalar>
+  requires has_lanes<Scalar>
 class BestRow<Scalar, lanes> {
  public:
   using Group = Lanes<Scalar, lanes>;
@@ -89,9 +88,7 @@ class BestRow<Scalar, lanes> {
     best_ = greater(std::bit_cast<Group>(numbered), best_);
     number_ += Logarithm(lanes);
   }
-  int row() const noexcept {
-    return static_cast<int>(std::bit_cast<Logarithm>(largest_lane<Scalar, lanes>(best_)) & number_bits) - 1;
-  }
+  int row() const noexcept { return static_cast<int>(std::bit_cast<Logarithm>(largest_lane<Scalar, lanes>(best_)) & number_bits) - 1; }
 
  private:
   using Bits = LaneBits<Scalar>;

@@ -252,9 +252,7 @@ class DualTableau {
     for (int i = 0; i < active_.rows.size(); ++i) shares_[index(i)] = (std::min)(Scalar(0), share_of(i, column));
   }
   /// Brings the table up to the row that became active last.
-  void sweep_last() noexcept {
-    table_.enter(active_.rows.back(), units_[index(active_.rows.size() - 1)]);
-  }
+  void sweep_last() noexcept { table_.enter(active_.rows.back(), units_[index(active_.rows.size() - 1)]); }
 
   /// Ends the force of an active row after a step that another one ends.
   [[gnu::noinline]]
@@ -283,7 +281,7 @@ class DualTableau {
   Values violation_, weight_, least_weight_, inverse_weight_;  // as in `RowScan`
   WarmStart active_;
   Six<Scalar> multipliers_{}, units_{};  // of the active rows, and what makes shares of their multipliers of their columns
-  Six<Scalar> shares_{};                 // of the active rows in the one that is refused
+  Six<Scalar> shares_{};  // of the active rows in the one that is refused
   int count_ = 0, steps_ = 0, refused_ = none;
   SixBySix<Scalar> inverse_;  // of the table of the active rows, where it is known
   bool is_inverted_ = false;

@@ -120,7 +120,8 @@ class HeldMinimum {
   [[gnu::noinline]] void shift(const Rows& rows, const typename Rows::Values& change, const InverseHessian<Scalar>& hessian) noexcept {
     typename Rows::Values multipliers = rows.values(multipliers_);
 #pragma GCC unroll 8
-    for (std::size_t g = 0; g < change.size(); ++g) multipliers[g] = greater<typename Rows::Group>(multipliers[g] + change[g], typename Rows::Group{});
+    for (std::size_t g = 0; g < change.size(); ++g)
+      multipliers[g] = greater<typename Rows::Group>(multipliers[g] + change[g], typename Rows::Group{});
     keep<Rows>(multipliers, multipliers_);
     force_ = rows.sum(multipliers);
     const Six<Scalar> step = hessian.solve(rows.sum(change));

@@ -67,9 +67,7 @@ class InverseHessian {
   const Six<Scalar>& diagonal() const noexcept { return d_inverse_; }
   const SixBySix<Scalar>& matrix() const noexcept { return inverse_; }
   /// H⁻¹·v
-  Six<Scalar> inverse_times(const Six<Scalar>& v) const noexcept {
-    return is_diagonal_ ? multiply(d_inverse_, v) : multiply(inverse_, v);
-  }
+  Six<Scalar> inverse_times(const Six<Scalar>& v) const noexcept { return is_diagonal_ ? multiply(d_inverse_, v) : multiply(inverse_, v); }
   /// H·v
   [[gnu::always_inline]] inline Six<Scalar> hessian_times(const Six<Scalar>& v) const noexcept {
     if (!is_diagonal_) return full_hessian_times(v);
@@ -84,17 +82,14 @@ class InverseHessian {
     SixBySix<Scalar> w;
     for (std::size_t j = 0; j < 6; ++j) {
       const Scalar scale = sqrt(d_inverse_[j]);
-      for (std::size_t k = 0; k < 6; ++k)
-        w[j][k] = k < j && !is_diagonal_ ? Scalar(scale * lower_[j][k]) : Scalar(k == j ? scale : Scalar(0));
+      for (std::size_t k = 0; k < 6; ++k) w[j][k] = k < j && !is_diagonal_ ? Scalar(scale * lower_[j][k]) : Scalar(k == j ? scale : Scalar(0));
     }
     return w;
   }
 
  private:
   const Scalar& entry(std::size_t i, std::size_t j) const noexcept { return hessian_[6 * j + i]; }
-  static bool is_pivot(const Scalar& pivot) noexcept {
-    return pivot > Scalar(0) && pivot < (std::numeric_limits<Scalar>::max)();
-  }
+  static bool is_pivot(const Scalar& pivot) noexcept { return pivot > Scalar(0) && pivot < (std::numeric_limits<Scalar>::max)(); }
 
   /// Whether all below the diagonal is 0; by the bits of the numbers where that is cheaper.
   bool has_zeros_below() const noexcept {
@@ -116,9 +111,7 @@ class InverseHessian {
     }
   }
 
-  [[gnu::noinline]] Six<Scalar> solve_by_factor(const Six<Scalar>& v) const noexcept {
-    return solve_upper(multiply(d_inverse_, solve_lower(v)));
-  }
+  [[gnu::noinline]] Six<Scalar> solve_by_factor(const Six<Scalar>& v) const noexcept { return solve_upper(multiply(d_inverse_, solve_lower(v))); }
   [[gnu::noinline]] Six<Scalar> full_hessian_times(const Six<Scalar>& v) const noexcept {
     Six<Scalar> image;
     for (std::size_t j = 0; j < 6; ++j) image[j] = dot_of_six<Scalar>(hessian_ + 6 * j, v);

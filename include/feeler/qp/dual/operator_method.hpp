@@ -83,9 +83,7 @@ class OperatorMethod {
       const Outcome outcome = run(problem, WarmStart{}, solution);
       rounding = rounding_at(x_);
       if (outcome == Outcome::infeasible) return outcome;
-      if (outcome == Outcome::optimal &&
-          !scan_.is_violated(problem, problem.bounds.data(), x_, tolerance_, 2 * rounding))
-        return outcome;
+      if (outcome == Outcome::optimal && !scan_.is_violated(problem, problem.bounds.data(), x_, tolerance_, 2 * rounding)) return outcome;
     }
     return Outcome::in_doubt;
   }
@@ -125,8 +123,8 @@ class OperatorMethod {
       }
       ++solution.iterations;
       const Scalar rounding = is_strict ? rounding_at(x_) : Scalar(0);
-      const bool is_violated = is_strict ? scan_.is_violated(problem, bounds_, x_, accepted_, rounding)
-                                         : scan_.is_violated(problem, bounds_, x_, accepted_);
+      const bool is_violated =
+          is_strict ? scan_.is_violated(problem, bounds_, x_, accepted_, rounding) : scan_.is_violated(problem, bounds_, x_, accepted_);
       if (is_violated) {
         scan_.measure(problem, bounds_, x_, rounding);
         mark_active();
@@ -168,8 +166,7 @@ class OperatorMethod {
 
   /// Whether no step along P·a meets the row that lacks `violation`: where its angle with the span of the
   /// active rows is too small or, with care, where the step leads far off.
-  bool is_dependent(const Six& a, const Scalar& whole, const Scalar& violation,
-                    const Scalar& slope) const noexcept {
+  bool is_dependent(const Six& a, const Scalar& whole, const Scalar& violation, const Scalar& slope) const noexcept {
     if (rows_.full()) return true;
     if (!(slope > dependent_angle_ * dependent_angle_ * whole)) return true;
     const Scalar clear = Scalar(1e-12);

@@ -38,14 +38,12 @@ class RowScan {
 
   /// Computes violations and weights where nothing is active, and selects as `select` does.
   /// @param bounds  of the rows, here and below
-  int start(const Problem& problem, const Scalar* bounds, const InverseHessian<Scalar>& inverse,
-            const Six<Scalar>& x, Scalar tolerance) noexcept {
+  int start(const Problem& problem, const Scalar* bounds, const InverseHessian<Scalar>& inverse, const Six<Scalar>& x, Scalar tolerance) noexcept {
     return inverse.is_diagonal() ? start(problem, bounds, DiagonalForm(inverse.diagonal()), x, tolerance)
                                  : start(problem, bounds, FullForm(inverse.matrix()), x, tolerance);
   }
   /// Computes weights where some rows are active.
-  void weigh(const Problem& problem, const InverseHessian<Scalar>& inverse,
-             const SixBySix<Scalar>& projector) noexcept {
+  void weigh(const Problem& problem, const InverseHessian<Scalar>& inverse, const SixBySix<Scalar>& projector) noexcept {
     if (inverse.is_diagonal()) {
       weigh(problem, DiagonalForm(inverse.diagonal()), FullForm(projector));
     } else {
@@ -54,22 +52,19 @@ class RowScan {
   }
 
   /// Whether a row is violated at x by more than `tolerance`, or by no number; nothing of it is kept.
-  static bool is_violated(const Problem& problem, const Scalar* bounds, const Six<Scalar>& x,
-                          Scalar tolerance) noexcept {
+  static bool is_violated(const Problem& problem, const Scalar* bounds, const Six<Scalar>& x, Scalar tolerance) noexcept {
     return is_above(problem, tolerance, Violation(bounds, x));
   }
   /// The same less what rounding makes of it.
   /// @param rounding  of a row's value at x, for a row of size one, here and below
   [[gnu::noinline]]
-  static bool is_violated(const Problem& problem, const Scalar* bounds, const Six<Scalar>& x, Scalar tolerance,
-                          Scalar rounding) noexcept {
+  static bool is_violated(const Problem& problem, const Scalar* bounds, const Six<Scalar>& x, Scalar tolerance, Scalar rounding) noexcept {
     return is_above(problem, tolerance, Excess(bounds, x, rounding));
   }
   /// Computes violations at x afresh, less what rounding makes of them.
   void measure(const Problem& problem, const Scalar* bounds, const Six<Scalar>& x, Scalar rounding) noexcept {
     const Excess excess(bounds, x, rounding);
-    for (int k = 0; k < problem.row_count; k += coarse_lanes)
-      store(&violation_[index(k)], coarse_violation(problem, k, excess));
+    for (int k = 0; k < problem.row_count; k += coarse_lanes) store(&violation_[index(k)], coarse_violation(problem, k, excess));
   }
 
   /// An active row is not violated, whatever rounding says.
@@ -83,8 +78,7 @@ class RowScan {
   int select(const Problem& problem, Scalar tolerance) const noexcept {
     const CoarseGroup threshold = spread<CoarseGroup>(Coarse(tolerance));
     Best best;
-    for (int k = 0; k < problem.row_count; k += coarse_lanes)
-      best.meet(load<CoarseGroup>(&violation_[index(k)]), weight_at(k), threshold);
+    for (int k = 0; k < problem.row_count; k += coarse_lanes) best.meet(load<CoarseGroup>(&violation_[index(k)]), weight_at(k), threshold);
     return best.row();
   }
 
@@ -101,8 +95,7 @@ class RowScan {
       const CoarseGroup along = dot_of_six<CoarseGroup>(coarse_rows(problem, k), direction);
       const CoarseGroup violation = load<CoarseGroup>(&violation_[index(k)]) - product(step, along);
       store(&violation_[index(k)], violation);
-      store(&weight_[index(k)],
-            CoarseGroup(load<CoarseGroup>(&weight_[index(k)]) - product(product(factor, along), along)));
+      store(&weight_[index(k)], CoarseGroup(load<CoarseGroup>(&weight_[index(k)]) - product(product(factor, along), along)));
       best.meet(violation, weight_at(k), threshold);
     }
     return best.row();
@@ -110,8 +103,7 @@ class RowScan {
 
   /// Follows a step of `length` along z and the change of P by +u·uᵀ/curvature.
   template <class Step>
-  void drop(const Problem& problem, const Step& z, Scalar length, const Six<Scalar>& u,
-            Scalar curvature) noexcept {
+  void drop(const Problem& problem, const Step& z, Scalar length, const Six<Scalar>& u, Scalar curvature) noexcept {
     const SixCoarse direction = spread_all<CoarseGroup>(z), freed = spread_all<CoarseGroup>(u);
     const CoarseGroup step = spread<CoarseGroup>(Coarse(length));
     const CoarseGroup factor = spread<CoarseGroup>(Coarse(Scalar(1) / curvature));
@@ -120,8 +112,7 @@ class RowScan {
       const SixCoarse a = coarse_rows(problem, k);
       const CoarseGroup along = dot_of_six<CoarseGroup>(a, direction), gained = dot_of_six<CoarseGroup>(a, freed);
       store(&violation_[index(k)], CoarseGroup(load<CoarseGroup>(&violation_[index(k)]) - product(step, along)));
-      store(&weight_[index(k)],
-            CoarseGroup(load<CoarseGroup>(&weight_[index(k)]) + product(product(factor, gained), gained)));
+      store(&weight_[index(k)], CoarseGroup(load<CoarseGroup>(&weight_[index(k)]) + product(product(factor, gained), gained)));
     }
   }
 
@@ -159,8 +150,7 @@ class RowScan {
 #pragma GCC unroll 6
       for (std::size_t j = 0; j < 6; ++j) {
 #pragma GCC unroll 6
-        for (std::size_t i = j; i < 6; ++i)
-          entries_[j][i] = spread<CoarseGroup>(Coarse(i == j ? q[j][i] : q[j][i] + q[j][i]));
+        for (std::size_t i = j; i < 6; ++i) entries_[j][i] = spread<CoarseGroup>(Coarse(i == j ? q[j][i] : q[j][i] + q[j][i]));
       }
     }
     [[gnu::always_inline]] CoarseGroup operator()(const SixCoarse& a) const noexcept {
@@ -182,9 +172,7 @@ class RowScan {
   class Violation {
    public:
     Violation(const Scalar* bounds, const Six<Scalar>& x) noexcept : bounds_(bounds), at_(spread_all<Group>(x)) {}
-    [[gnu::always_inline]] Group operator()(const SixGroups& a, int k) const noexcept {
-      return load<Group>(bounds_ + k) - dot_of_six<Group>(a, at_);
-    }
+    [[gnu::always_inline]] Group operator()(const SixGroups& a, int k) const noexcept { return load<Group>(bounds_ + k) - dot_of_six<Group>(a, at_); }
 
    private:
     const Scalar* bounds_;
@@ -193,8 +181,7 @@ class RowScan {
   /// The same less what rounding makes of it.
   class Excess {
    public:
-    Excess(const Scalar* bounds, const Six<Scalar>& x, Scalar rounding) noexcept
-        : violation_(bounds, x), unit_(spread<Group>(rounding)) {}
+    Excess(const Scalar* bounds, const Six<Scalar>& x, Scalar rounding) noexcept : violation_(bounds, x), unit_(spread<Group>(rounding)) {}
     [[gnu::always_inline]] Group operator()(const SixGroups& a, int k) const noexcept {
       SixGroups size;
 #pragma GCC unroll 6
@@ -257,8 +244,7 @@ class RowScan {
   }
 
   template <class Form>
-  int start(const Problem& problem, const Scalar* bounds, const Form& form, const Six<Scalar>& x,
-            Scalar tolerance) noexcept {
+  int start(const Problem& problem, const Scalar* bounds, const Form& form, const Six<Scalar>& x, Scalar tolerance) noexcept {
     const Violation violation_of(bounds, x);
     const CoarseGroup share = spread<CoarseGroup>(Coarse(least_share)), least = spread<CoarseGroup>(smallest_weight<Coarse>());
     const CoarseGroup threshold = spread<CoarseGroup>(Coarse(tolerance));

@@ -184,8 +184,8 @@ class SchurComplement {
     return scaled;
   }
 
-  std::array<Values, 6> scaled_;                // D⁻¹L⁻¹a of each row, by columns
-  std::array<Values, most> sweeps_;             // rows of S, and of its sweeps
+  std::array<Values, 6> scaled_;  // D⁻¹L⁻¹a of each row, by columns
+  std::array<Values, most> sweeps_;  // rows of S, and of its sweeps
   std::array<Group, (most + 1) / 2> inverses_;  // of the determinants of pairs, by which their sweeps are to be multiplied
   int count_;
 };

@@ -21,8 +21,8 @@ namespace feeler {
 /// @return whether there is a proof; `solution.conflict` then names its rows, and `active` is empty
 /// Cost: about 300 multiplications a row with a weight; noexcept, no allocation.
 template <RealScalar Scalar>
-bool find_conflict(const QpProblem<Scalar>& problem, const QpMultipliers<Scalar>& multipliers,
-                   const Scalar& tolerance, QpSolution<Scalar>& solution) noexcept {
+bool find_conflict(const QpProblem<Scalar>& problem, const QpMultipliers<Scalar>& multipliers, const Scalar& tolerance,
+                   QpSolution<Scalar>& solution) noexcept {
   struct Carrying {
     int row = -1;
     Scalar weight = Scalar(0);
@@ -48,8 +48,7 @@ bool find_conflict(const QpProblem<Scalar>& problem, const QpMultipliers<Scalar>
       carrying[at(count++)] = {p, multipliers[at(p)]};
       continue;
     }
-    Scalar gain = problem.bounds[at(p)], weights(1),
-           sizes = problem.bounds[at(p)] < Scalar(0) ? Scalar(-gain) : gain;
+    Scalar gain = problem.bounds[at(p)], weights(1), sizes = problem.bounds[at(p)] < Scalar(0) ? Scalar(-gain) : gain;
     for (int i = 0; i < count; ++i) {
       const Scalar& share = e.coefficients[at(i)];
       const Scalar part = share * problem.bounds[at(carrying[at(i)].row)];

@@ -85,9 +85,7 @@ class InteriorPoint {
     }
   }
 
-  Scalar relaxed_bound(const Problem& problem, int k) const noexcept {
-    return problem.bounds[at(k)] - accuracy_ / 2;
-  }
+  Scalar relaxed_bound(const Problem& problem, int k) const noexcept { return problem.bounds[at(k)] - accuracy_ / 2; }
 
   void residuals(const Problem& problem, const Vector6<Scalar>& x) noexcept {
     dual_residual_ = problem.hessian * x + problem.gradient;
@@ -141,13 +139,11 @@ class InteriorPoint {
     const Scalar affine = step_length(Scalar(1));
     Scalar affine_gap(0);
     for (int k = 0; k < row_count_; ++k) {
-      affine_gap += (multipliers_[at(k)] + affine * multiplier_steps_[at(k)]) *
-                    (slacks_[at(k)] + affine * slack_steps_[at(k)]);
+      affine_gap += (multipliers_[at(k)] + affine * multiplier_steps_[at(k)]) * (slacks_[at(k)] + affine * slack_steps_[at(k)]);
     }
     const Scalar ratio = affine_gap / gap;
     const Scalar centre = ratio * ratio * ratio * gap / Scalar(row_count_);
-    for (int k = 0; k < row_count_; ++k)
-      products_[at(k)] += slack_steps_[at(k)] * multiplier_steps_[at(k)] - centre;
+    for (int k = 0; k < row_count_; ++k) products_[at(k)] += slack_steps_[at(k)] * multiplier_steps_[at(k)] - centre;
 
     const Vector6<Scalar> step = direction(problem);
     const Scalar length = step_length(Scalar(0.995));
@@ -164,17 +160,14 @@ class InteriorPoint {
   /// Compliance that a row has in the Newton system [m a multiplier]: bounds the condition of the 6×6 matrix.
   /// The steps converge all the same, because residuals are those of the hard row (a proximal step in the
   /// multipliers).
-  Scalar softness(int k) const noexcept {
-    return 256 * std::numeric_limits<Scalar>::epsilon() * compliance_[at(k)];
-  }
+  Scalar softness(int k) const noexcept { return 256 * std::numeric_limits<Scalar>::epsilon() * compliance_[at(k)]; }
   Scalar softened_slack(int k) const noexcept { return slacks_[at(k)] + softness(k) * multipliers_[at(k)]; }
 
   /// The Newton step that takes the residuals, and the products sλ, to zero.
   Vector6<Scalar> direction(const Problem& problem) noexcept {
     Vector6<Scalar> force = -dual_residual_;
     for (int k = 0; k < row_count_; ++k) {
-      force -= ((multipliers_[at(k)] * primal_residual_[at(k)] + products_[at(k)]) / softened_slack(k)) *
-               problem.rows[at(k)];
+      force -= ((multipliers_[at(k)] * primal_residual_[at(k)] + products_[at(k)]) / softened_slack(k)) * problem.rows[at(k)];
     }
     const Vector6<Scalar> step = newton_.solve(force);
     for (int k = 0; k < row_count_; ++k) {
@@ -189,10 +182,8 @@ class InteriorPoint {
   Scalar step_length(const Scalar& part) const noexcept {
     Scalar length = Scalar(1) / part;
     for (int k = 0; k < row_count_; ++k) {
-      if (slacks_[at(k)] + length * slack_steps_[at(k)] < Scalar(0))
-        length = -slacks_[at(k)] / slack_steps_[at(k)];
-      if (multipliers_[at(k)] + length * multiplier_steps_[at(k)] < Scalar(0))
-        length = -multipliers_[at(k)] / multiplier_steps_[at(k)];
+      if (slacks_[at(k)] + length * slack_steps_[at(k)] < Scalar(0)) length = -slacks_[at(k)] / slack_steps_[at(k)];
+      if (multipliers_[at(k)] + length * multiplier_steps_[at(k)] < Scalar(0)) length = -multipliers_[at(k)] / multiplier_steps_[at(k)];
     }
     return part * length < Scalar(1) ? Scalar(part * length) : Scalar(1);
   }
@@ -202,8 +193,7 @@ class InteriorPoint {
   Scalar accuracy_{}, longest_{};  // tolerance and rounding; the largest violation of the start [m]
   Vector6<Scalar> dual_residual_;
   QpMultipliers<Scalar> multipliers_{}, multiplier_steps_{}, slacks_{}, slack_steps_{}, primal_residual_{};
-  QpMultipliers<Scalar> compliance_{},
-      products_{};  // aᵀH⁻¹a; what the Newton step takes to zero: sλ, and its correction
+  QpMultipliers<Scalar> compliance_{}, products_{};  // aᵀH⁻¹a; what the Newton step takes to zero: sλ, and its correction
 };
 
 static_assert(QpSolver<InteriorPoint<double>>);

@@ -88,8 +88,7 @@ using QpMultipliers = std::array<Scalar, std::size_t(QpProblem<Scalar>::row_capa
 /// allocation.
 template <RealScalar Scalar>
 QpStatus conclude(const QpProblem<Scalar>& problem, const Ldlt6<Scalar>& hessian, const Vector6<Scalar>& step,
-                  const QpMultipliers<Scalar>& multipliers, const Scalar& tolerance,
-                  QpSolution<Scalar>& solution) noexcept {
+                  const QpMultipliers<Scalar>& multipliers, const Scalar& tolerance, QpSolution<Scalar>& solution) noexcept {
   solution.step = step;
   bool is_optimal = true;
   ConicBasis<Scalar> carrying;
@@ -98,8 +97,7 @@ QpStatus conclude(const QpProblem<Scalar>& problem, const Ldlt6<Scalar>& hessian
     const Scalar slack = row.dot(step) - problem.bounds[std::size_t(k)];
     if (!(slack >= -tolerance - rounding_of_row(row, step))) is_optimal = false;
     const Scalar& multiplier = multipliers[std::size_t(k)];
-    if (multiplier > Scalar(0) && multiplier * row.dot(hessian.solve(row)) > slack)
-      carrying.add(k, row, multiplier);
+    if (multiplier > Scalar(0) && multiplier * row.dot(hessian.solve(row)) > slack) carrying.add(k, row, multiplier);
   }
   for (int i = 0; i < carrying.size(); ++i) {
     const int k = carrying.index(i);
@@ -109,8 +107,7 @@ QpStatus conclude(const QpProblem<Scalar>& problem, const Ldlt6<Scalar>& hessian
     solution.active.push_back({k, carrying.weight(i)});
   }
   if (!make_finite(solution)) return QpStatus::iteration_limit;
-  return is_optimal && is_stationary(problem, hessian, tolerance, solution) ? QpStatus::optimal
-                                                                            : QpStatus::iteration_limit;
+  return is_optimal && is_stationary(problem, hessian, tolerance, solution) ? QpStatus::optimal : QpStatus::iteration_limit;
 }
 
 }  // namespace feeler

@@ -42,8 +42,7 @@ class TextbookActiveSet {
     const QpStatus status = iterate(problem, solution);
     for (int i = 0; i < count_; ++i) solution.active.push_back({active_[at(i)], multipliers_[at(i)]});
     if (!make_finite(solution)) return QpStatus::iteration_limit;
-    if (status == QpStatus::optimal && !is_stationary(problem, hessian_, tolerance, solution))
-      return QpStatus::iteration_limit;
+    if (status == QpStatus::optimal && !is_stationary(problem, hessian_, tolerance, solution)) return QpStatus::iteration_limit;
     return status;
   }
 
@@ -57,8 +56,7 @@ class TextbookActiveSet {
     const int limit = 8 * (problem.row_count + 8);
     while (solution.iterations < limit) {
       const int entering = most_violated(problem, x);
-      if (entering < 0)
-        return active_rows_are_met(problem, x) ? QpStatus::optimal : QpStatus::iteration_limit;
+      if (entering < 0) return active_rows_are_met(problem, x) ? QpStatus::optimal : QpStatus::iteration_limit;
       const QpStatus status = enter(problem, entering, limit, solution);
       if (status != QpStatus::optimal) return status;
     }
@@ -70,8 +68,7 @@ class TextbookActiveSet {
     int entering = -1;
     for (int k = 0; k < problem.row_count; ++k) {
       const Scalar violation = problem.bounds[at(k)] - problem.rows[at(k)].dot(x);
-      if (violation > worst && violation > tolerance + rounding_of_row(Vector6<Scalar>(problem.rows[at(k)]), x) &&
-          !is_active(k)) {
+      if (violation > worst && violation > tolerance + rounding_of_row(Vector6<Scalar>(problem.rows[at(k)]), x) && !is_active(k)) {
         worst = violation;
         entering = k;
       }
@@ -163,9 +160,7 @@ class TextbookActiveSet {
     return angle * angle;
   }
   /// A share in a conflict that is rounding.
-  static Scalar negligible() noexcept {
-    return std::numeric_limits<Scalar>::is_exact ? Scalar(0) : Scalar(1e-9);
-  }
+  static Scalar negligible() noexcept { return std::numeric_limits<Scalar>::is_exact ? Scalar(0) : Scalar(1e-9); }
 
   void factor(const Problem& problem) noexcept {
     basis_.clear();

@@ -31,8 +31,7 @@ struct SymmetricThree {
 /// det(A) times the Schur complement of A. Entries whose products of twelve overflow are not definite.
 /// Source: R. A. Horn, C. R. Johnson, "Matrix Analysis" (2013), theorems 7.2.5 and 7.7.7. Cost: 90 multiplications.
 template <RealScalar Scalar>
-FEELER_FLATTEN
-bool is_positive_definite(const Matrix6<Scalar>& h, const Vector6<Scalar>& less) noexcept {
+FEELER_FLATTEN bool is_positive_definite(const Matrix6<Scalar>& h, const Vector6<Scalar>& less) noexcept {
   using Three = detail::SymmetricThree<Scalar>;
   const Three head{h(0, 0) - less[0], h(1, 0), h(2, 0), h(1, 1) - less[1], h(2, 1), h(2, 2) - less[2]};
   const Three adjugate = head.adjugate();

@@ -60,7 +60,7 @@ class ElasticRows {
     const int maximum_solves = (std::min)(most_solves, 24);
     const Scalar most = relaxation_at_rest();
     Scalar low(0), high = most;  // the relaxation lies between
-    bool is_least = true;        // with less than the one at hand there is no solution
+    bool is_least = true;  // with less than the one at hand there is no solution
     relaxation_ = Scalar(0);
     for (int solves = 1; solves <= maximum_solves; ++solves) {
       if (solves == maximum_solves) {

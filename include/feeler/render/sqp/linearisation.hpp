@@ -165,9 +165,9 @@ class Linearisation {
 
   /// What stopped a step.
   struct Stop {
-    Row row;                                          // where the step began
-    Scalar multiplier;                                // of the metric [m]
-    Scalar gap;                                       // after the step [m]
+    Row row;  // where the step began
+    Scalar multiplier;  // of the metric [m]
+    Scalar gap;  // after the step [m]
   };
 
   /// Remembers what stopped a step.
@@ -331,9 +331,8 @@ class Linearisation {
   }
 
   /// Separation of a pair along a world normal at a pose with the axes given [m].
-  FEELER_FLATTEN
-  Scalar slack_along(const Scene& scene, const Pair& pair, const Vector3<Scalar>& normal, const Pose<Scalar>& pose, const Matrix3<Scalar>& axes,
-                     Tick<MeshScalar>& tick) noexcept {
+  FEELER_FLATTEN Scalar slack_along(const Scene& scene, const Pair& pair, const Vector3<Scalar>& normal, const Pose<Scalar>& pose,
+                                    const Matrix3<Scalar>& axes, Tick<MeshScalar>& tick) noexcept {
     if (++planes_ >= planes_per_work) {
       planes_ = 0;
       ++tick.work;
@@ -344,8 +343,7 @@ class Linearisation {
   }
 
   /// Measures a pair where the rows are, and adds its rows.
-  FEELER_FLATTEN
-  void measure(const Scene& scene, Pair& pair, Tick<MeshScalar>& tick) noexcept {
+  FEELER_FLATTEN void measure(const Scene& scene, Pair& pair, Tick<MeshScalar>& tick) noexcept {
     const Matrix3<Scalar> corners = scene.in_tool(pair.corners_world, pose_, axes_);
     const auto closest = query(scene, pair, corners, axes_, is_at_start_, tick);
     ContactPatch<Piece, MeshScalar> patch(scene.piece(pair.piece), scene.incidence(pair.piece), scene.object(), axes_, scene.reference(),
@@ -377,14 +375,17 @@ class Linearisation {
       if (is_at_start_) keep_if_touching(scene, row, pair);
     }
     if constexpr (is_convex) {
-      if (pair.state == PairState::has_rows && !pair.keeps_ghost && !closest.is_touching) covers_.add(pair.last_normal, from_tool(pair), closest.distance);
+      if (pair.state == PairState::has_rows && !pair.keeps_ghost && !closest.is_touching)
+        covers_.add(pair.last_normal, from_tool(pair), closest.distance);
     }
   }
 
   /// Whether a pair is the first of its wall and piece since the rows were last cleared.
   bool is_first_on_wall(const Scene& scene, const Pair& pair) noexcept {
     const OnWall at{pair.piece, scene.object().walls().of_triangle(pair.triangle)};
-    if (at.wall < 0 || std::any_of(walls_.begin(), walls_.end(), [&](const OnWall& other) { return other.piece == at.piece && other.wall == at.wall; })) return false;
+    if (at.wall < 0 ||
+        std::any_of(walls_.begin(), walls_.end(), [&](const OnWall& other) { return other.piece == at.piece && other.wall == at.wall; }))
+      return false;
     return walls_.push_back(at);
   }
 
@@ -462,23 +463,23 @@ class Linearisation {
 
   Pairs pairs_;
   Problem problem_;
-  FixedVector<OnWall, 64> walls_;      // that pieces touch where the rows are
+  FixedVector<OnWall, 64> walls_;  // that pieces touch where the rows are
   KeptContacts<Row, Problem::row_capacity> kept_;
-  CoveringPlanes<Scalar> covers_;      // of the pairs measured where the rows are
-  FixedVector<Nearer, 16> nearer_;     // that are no pairs yet
+  CoveringPlanes<Scalar> covers_;  // of the pairs measured where the rows are
+  FixedVector<Nearer, 16> nearer_;  // that are no pairs yet
   FixedVector<int, Pairs::capacity> quiet_;  // pairs that others may cover
   int next_pair_ = 0, next_quiet_ = 0, next_nearer_ = 0;  // to be measured
   FixedVector<Stop, QpSolution<Scalar>::active_capacity> stops_;  // of the last step
-  Twist<Scalar> stopped_;              // that step
+  Twist<Scalar> stopped_;  // that step
   PatchRows<Scalar, Row> patch_rows_;  // of the pair at hand
-  VertexSet near_vertices_;            // likewise
-  Pose<Scalar> start_;                 // where the motion starts
-  Pose<Scalar> pose_;                  // where the rows are
-  Matrix3<Scalar> axes_;               // there
+  VertexSet near_vertices_;  // likewise
+  Pose<Scalar> start_;  // where the motion starts
+  Pose<Scalar> pose_;  // where the rows are
+  Matrix3<Scalar> axes_;  // there
   Scalar reach_ = Scalar(0);
   bool is_at_start_ = false;
   bool assumes_valleys_ = true;
-  bool has_rows_ = false;          // since the last `clear`
+  bool has_rows_ = false;  // since the last `clear`
   bool leaves_out_pairs_ = false;
   int planes_ = 0;  // looked along since `tick.work` last grew for them
 };

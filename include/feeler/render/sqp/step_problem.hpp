@@ -35,7 +35,7 @@ class StepProblem {
 
   /// What is known of the pair that a row is of.
   struct Standing {
-    Scalar certified_gap;   ///< separation at the last certified pose, 0 where that is none [m]
+    Scalar certified_gap;  ///< separation at the last certified pose, 0 where that is none [m]
     bool is_spare = false;  ///< it has not held the tool lately: where there is no clearance others are to hold it
   };
 
@@ -86,13 +86,11 @@ class StepProblem {
   Scalar worth_of_margin() const noexcept { return price_ * (elastic_.relaxation_at_rest() - elastic_.relaxation()); }
   /// Whether an assumed row stopped the last step.
   bool rests_on_assumption() const noexcept {
-    return std::any_of(solution_.active.begin(), solution_.active.end(),
-                       [this](const auto& active) { return rows_[active.row].is_assumed; });
+    return std::any_of(solution_.active.begin(), solution_.active.end(), [this](const auto& active) { return rows_[active.row].is_assumed; });
   }
   /// Whether a kept row stopped the last step.
   bool rests_on_kept() const noexcept {
-    return std::any_of(solution_.active.begin(), solution_.active.end(),
-                       [this](const auto& active) { return active.row >= rows_.size() - kept_; });
+    return std::any_of(solution_.active.begin(), solution_.active.end(), [this](const auto& active) { return active.row >= rows_.size() - kept_; });
   }
   /// Whether the contacts that stopped the last step are still between the same features after it.
   bool keeps_features() const noexcept {
@@ -140,7 +138,7 @@ class StepProblem {
   }
   /// What the forces of the last step are worth in the next one.
   enum class Guess {
-    none,   ///< no contact held the tool, or one that did is gone: nothing was solved
+    none,  ///< no contact held the tool, or one that did is gone: nothing was solved
     wrong,  ///< no contact holds it now, or not all rows can have the margin: to be projected
     close,  ///< as good as a projection, as other contacts hold it, or with other forces: to be bent
     right,  ///< the step is what `bend` would find
@@ -235,8 +233,7 @@ class StepProblem {
   ///
   /// Across the active rows the step is fixed, so ½ρ(Jₖd − bₖ)² added for each changes nothing along them (augmented Lagrangian). Where H
   /// has negative curvature along the rows too, the tool is about to slip off: there part of the metric takes its place.
-  FEELER_FLATTEN
-  void set_lagrangian(const Metric<Scalar>& metric, const Twist<Scalar>& e) noexcept {
+  FEELER_FLATTEN void set_lagrangian(const Metric<Scalar>& metric, const Twist<Scalar>& e) noexcept {
     const Vector6<Scalar> base = metric.diagonal();
     problem_.gradient = metric.gradient(e);
     // Summed before it is subtracted: of contacts between faces much cancels, and does so to the last bit.

@@ -24,8 +24,7 @@ struct HandRequest {
 /// watcher thread; all functions are wait-free and allocate nothing.
 class LiveFeed {
  public:
-  static constexpr std::size_t sample_capacity =
-      8192;  ///< eight seconds at 1 kHz, should the watcher be kept from running
+  static constexpr std::size_t sample_capacity = 8192;  ///< eight seconds at 1 kHz, should the watcher be kept from running
 
   /// By the servo loop, once a tick.
   void tell(const Snapshot& snapshot, const TickSample& sample) noexcept {
