@@ -17,7 +17,7 @@ struct SceneScores {
   std::vector<Score> scores;  ///< Feeler first
 };
 
-/// Tables to paste into docs/performance.md: times, behaviour, crossings of plates, and where Feeler is
+/// Tables to paste into docs/rivals.md: times, behaviour, crossings of plates, and where Feeler is
 /// slower than ODE with 4 substeps.
 std::string scenes_in_markdown(const std::vector<SceneScores>& all);
 std::string plates_in_markdown(const std::vector<PlateScore>& all);
