@@ -3,13 +3,14 @@
 
 #include <cstdio>
 #include <exception>
+#include <stdexcept>
 
 #include <CLI/CLI.hpp>
 
 namespace feeler::bench {
 
 /// Reads the options of a program from its command line, then runs it.
-/// @return what `run` returns; 0 after --help; 2, with a sentence on the standard error, where an option is refused or `run` throws
+/// @return what `run` returns; 0 after --help; 2, with a sentence on the standard error, where an option is refused, `run` throws, or what it printed cannot be written
 template <class Run>
 int run_with_options(CLI::App& app, int argc, const char* const* argv, const Run& run) {
   constexpr int bad_input = 2;
@@ -19,7 +20,10 @@ int run_with_options(CLI::App& app, int argc, const char* const* argv, const Run
     return app.exit(problem) == 0 ? 0 : bad_input;
   }
   try {
-    return run();
+    const int result = run();
+    if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0)
+      throw std::runtime_error("what was to be printed cannot be written; make room, and run again");
+    return result;
   } catch (const std::exception& problem) {
     std::fprintf(stderr, "%s: %s\n", app.get_name().c_str(), problem.what());
     return bad_input;

@@ -8,8 +8,8 @@
 #include <memory>
 #include <vector>
 
+#include "study/checked_pieces.hpp"
 #include "study/truth.hpp"
-#include "support/penetration_checker.hpp"
 #include "times.hpp"
 
 namespace feeler::extremes {
@@ -33,10 +33,9 @@ double distance_from_nearest(const StudyScene& scene, const study::Truth& truth,
   if (scene.triangles.rows() > 100000) return -1;
   const auto nearest = truth.nearest(hand, pose.cast<double>(), margin, margin);
   if (!nearest) return -1;
-  const Vector3<Wide> way = nearest->pose.translation.unaryExpr([](const study::Real& x) { return static_cast<Wide>(x); }) - pose.translation;
-  const auto& q = nearest->pose.rotation;
-  const Quaternion<Wide> rotation(static_cast<Wide>(q.w()), static_cast<Wide>(q.x()), static_cast<Wide>(q.y()), static_cast<Wide>(q.z()));
-  return double(way.norm() + Wide(truth.radius()) * rotation.angularDistance(pose.rotation.normalized()));
+  const Pose<Wide> there = study::wide(nearest->pose);
+  return double((there.translation - pose.translation).norm() +
+                Wide(truth.gaps().radius()) * there.rotation.angularDistance(pose.rotation.normalized()));
 }
 
 }  // namespace
@@ -62,7 +61,7 @@ Finding try_case(const Case& one, const std::string& rendering) {
     return finding;
   }
   const test::CheckedObject object(scene.vertices, scene.triangles);
-  const auto tool = test::checked_tool(ConvexPolytope<double>::hull_of(scene.pieces.front()));
+  const auto pieces = study::checked_pieces(scene);
   const bool is_large = scene.triangles.rows() > 100000;
   std::vector<double> times;
   int converged = 0;
@@ -72,7 +71,7 @@ Finding try_case(const Case& one, const std::string& rendering) {
     converged += reading.status == TickStatus::converged;
     if (!is_finite(reading) && finding.fault.empty()) finding.fault = text("tick %g: an output is not finite", k, 0);
     if (is_large && k % 20 != 0) return;
-    finding.deepest = std::max(finding.deepest, double(test::deepest_penetration(object, tool, test::checked_pose(reading.pose)).depth));
+    finding.deepest = std::max(finding.deepest, double(test::deepest_penetration(object, pieces, test::checked_pose(reading.pose)).depth));
   };
   for (int k = 1; k <= one.ticks; ++k) {
     reading = player->update(scene.motion(k * 1e-3));
@@ -95,7 +94,7 @@ Finding try_case(const Case& one, const std::string& rendering) {
   if (one.outcome == Outcome::free || (one.outcome == Outcome::either && !one.remark.empty())) return finding;
   if (!finding.is_at_rest && finding.fault.empty()) finding.fault = "never at rest";
   // In float a pose is rounded on the way out, and the margin follows that.
-  const double reach = scene.vertices.cwiseAbs().maxCoeff() + truth.radius();
+  const double reach = scene.vertices.cwiseAbs().maxCoeff() + truth.gaps().radius();
   const double allowed = one.distance_allowed + (rendering == "float" ? 40 * double(std::numeric_limits<float>::epsilon()) * reach : 0);
   if (finding.distance < 0 && finding.fault.empty()) finding.fault = "no nearest pose is proved";
   if (!(finding.distance <= allowed) && finding.fault.empty())

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "support/penetration_checker.hpp"
+#include "study/checked_pieces.hpp"
 #include "times.hpp"
 
 namespace feeler::study {
@@ -57,14 +57,7 @@ const TruthPath& TruthPaths::of(const StudyScene& scene, const Cell& cell, const
       ++path.missing;
       continue;
     }
-    const auto wide = [](const Real& x) { return static_cast<Wide>(x); };
-    const auto& rotation = nearest->pose.rotation;
-    path.samples.push_back({time,
-                            {nearest->pose.translation.unaryExpr(wide),
-                             Quaternion<Wide>(wide(rotation.w()), wide(rotation.x()), wide(rotation.y()), wide(rotation.z()))},
-                            nearest->force.unaryExpr(wide),
-                            nearest->torque.unaryExpr(wide),
-                            !nearest->active.empty()});
+    path.samples.push_back({time, wide(nearest->pose), wide(nearest->force), wide(nearest->torque), !nearest->active.empty()});
   }
   return made_.emplace(key, std::move(path)).first->second;
 }
@@ -86,8 +79,7 @@ CellFigures figures_of(const Cell& cell, double seconds, unsigned seed, TruthPat
     return figures;
   }
   const test::CheckedObject object(scene.vertices, scene.triangles);
-  std::vector<test::CheckedTool> pieces;
-  for (const auto& points : scene.pieces) pieces.push_back(test::checked_tool(ConvexPolytope<double>::hull_of(points)));
+  const auto pieces = checked_pieces(scene);
 
   std::vector<double> errors, solver_errors, force_errors, force_differences, torque_differences, separations, jitters, work, times;
   // The sample of a path at a time, if there is one.
@@ -114,8 +106,7 @@ CellFigures figures_of(const Cell& cell, double seconds, unsigned seed, TruthPat
       times.push_back(reading.microseconds);
     }
     if (k % (cell.rate / TruthPath::samples_a_second) == 0)
-      for (const auto& piece : pieces)
-        figures.deepest = std::max(figures.deepest, double(test::deepest_penetration(object, piece, test::checked_pose(reading.pose)).depth));
+      figures.deepest = std::max(figures.deepest, double(test::deepest_penetration(object, pieces, test::checked_pose(reading.pose)).depth));
     if (const auto* own = sample_at(*own_path, time, next_own)) solver_errors.push_back(largest_distance(scene, reading.pose, own->pose));
     const auto* found = sample_at(*path, time, next);
     if (found == nullptr) continue;
@@ -127,7 +118,7 @@ CellFigures figures_of(const Cell& cell, double seconds, unsigned seed, TruthPat
     if (sample.is_in_contact) {
       const Pose<Real> pose{reading.pose.translation.cast<Real>(), reading.pose.rotation.cast<Real>()};
       const double reach = 10 * cell.margin;
-      separations.push_back(std::min(double(truth.distance(pose, reach)), reach));
+      separations.push_back(std::min(double(truth.gaps().distance(pose, reach)), reach));
     }
   }
   const auto share_within = [&](double most) {

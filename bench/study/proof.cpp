@@ -3,13 +3,12 @@
 #include <algorithm>
 #include <limits>
 #include <map>
-#include <memory>
 #include <random>
 #include <utility>
 
 #include "fuzz/random_object.hpp"
+#include "study/checked_pieces.hpp"
 #include "study/truth.hpp"
-#include "support/penetration_checker.hpp"
 
 namespace feeler::study {
 namespace {
@@ -18,21 +17,14 @@ constexpr double kept = 1e-12;  // [m]
 
 /// A scene, its truth, and what the checker needs, which shares no code with either.
 struct Scenery {
-  explicit Scenery(StudyScene made) : scene(std::move(made)), truth(scene), object(scene.vertices, scene.triangles) {
-    for (const auto& points : scene.pieces) pieces.push_back(test::checked_tool(ConvexPolytope<double>::hull_of(points)));
-  }
+  explicit Scenery(StudyScene made) : scene(std::move(made)), truth(scene), object(scene.vertices, scene.triangles), pieces(checked_pieces(scene)) {}
+  double depth(const Pose<Real>& pose) const { return double(test::deepest_penetration(object, pieces, test::checked_pose(wide(pose))).depth); }
+
   StudyScene scene;
   Truth truth;
   test::CheckedObject object;
   std::vector<test::CheckedTool> pieces;
 };
-
-test::WideVector wide(const Vector3<Real>& v) {
-  return v.unaryExpr([](const Real& x) { return static_cast<Wide>(x); });
-}
-Quaternion<Wide> wide(const Quaternion<Real>& q) {
-  return {static_cast<Wide>(q.w()), static_cast<Wide>(q.x()), static_cast<Wide>(q.y()), static_cast<Wide>(q.z())};
-}
 
 /// Free poses about a minimum that are nearer to the hand. A step is tried at random, and again turned so that it lowers the energy.
 std::pair<int, int> search_around(std::mt19937& bits, const Scenery& scenery, const Pose<double>& hand, const NearestPose& minimum) {
@@ -43,12 +35,12 @@ std::pair<int, int> search_around(std::mt19937& bits, const Scenery& scenery, co
   for (int i = 0; i < 40; ++i) {
     const double size = fuzz::magnitude(bits, -9, -4);
     Vector6<Real> step;
-    step << (size * fuzz::random_vector(bits)).cast<Real>(), (size / truth.radius() * fuzz::random_vector(bits)).cast<Real>();
+    step << (size * fuzz::random_vector(bits)).cast<Real>(), (size / truth.gaps().radius() * fuzz::random_vector(bits)).cast<Real>();
     for (const int sign : {1, -1}) {
       const Pose<Real> pose = Truth::moved(minimum.pose, Vector6<Real>(sign * step));
       if (!(truth.energy(hand, pose) < energy)) continue;
       ++searched;
-      better += test::deepest_penetration(object, pieces, test::CheckedPose(wide(pose.translation), wide(pose.rotation))).depth <= 0;
+      better += scenery.depth(pose) <= 0;
     }
   }
   return {searched, better};
@@ -157,12 +149,12 @@ ProofFigures prove_truth(int cells, unsigned seed, const std::vector<std::string
     ++figures.in_contact;
     figures.last_step = std::max(figures.last_step, static_cast<double>(minimum->last_step));
     figures.least_curvature = std::min(figures.least_curvature, minimum->curvature);
-    figures.deep +=
-        test::deepest_penetration(object, pieces, test::CheckedPose(wide(minimum->pose.translation), wide(minimum->pose.rotation))).depth > 0;
+    figures.deep += scenery.depth(minimum->pose) > 0;
     const NearestPose tighter = truth.tightened(hand, *minimum, kept, 2);
-    figures.tightened = std::max(
-        figures.tightened, static_cast<double>(Real((minimum->pose.translation - tighter.pose.translation).norm() +
-                                                    2 * truth.radius() * (minimum->pose.rotation.coeffs() - tighter.pose.rotation.coeffs()).norm())));
+    figures.tightened =
+        std::max(figures.tightened,
+                 static_cast<double>(Real((minimum->pose.translation - tighter.pose.translation).norm() +
+                                          2 * truth.gaps().radius() * (minimum->pose.rotation.coeffs() - tighter.pose.rotation.coeffs()).norm())));
     const auto [searched, better] = search_around(bits, scenery, hand, *minimum);
     figures.searched += searched, figures.better += better;
   }

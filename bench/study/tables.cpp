@@ -1,8 +1,6 @@
 #include "study/tables.hpp"
 
-#include <cmath>
 #include <cstdio>
-#include <functional>
 #include <map>
 
 #include "study/rows.hpp"

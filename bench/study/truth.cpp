@@ -13,10 +13,7 @@ namespace feeler::study {
 namespace {
 
 using RealVector = Vector3<Real>;
-using WideVector = Vector3<Wide>;
 
-Wide wide(const Real& x) { return static_cast<Wide>(x); }
-WideVector wide(const RealVector& v) { return {wide(v.x()), wide(v.y()), wide(v.z())}; }
 RealVector real(const Vector3<double>& v) { return v.cast<Real>(); }
 
 /// Rotation vector of a unit quaternion.
@@ -27,52 +24,10 @@ RealVector log_of(const Quaternion<Real>& q) {
   return (sign * 2 * atan2(sine, Real(sign * q.w())) / sine) * q.vec();
 }
 
-int count(const std::array<int, 3>& corners) {
-  return int(std::count_if(corners.begin(), corners.end(), [](int i) { return i >= 0; }));
-}
-
-/// Where a point is closest to a segment, as a share of it.
-Wide place_on(const WideVector& point, const WideVector& a, const WideVector& b) {
-  const Wide length = (b - a).squaredNorm();
-  return length > 0 ? (point - a).dot(b - a) / length : Wide(0);
-}
-
-/// Whether the foot of a point is inside a triangle, edges included.
-bool is_above(const WideVector& point, const std::array<WideVector, 3>& t) {
-  const WideVector normal = test::detail::normal_of(t[1] - t[0], t[2] - t[0]);
-  if (normal.isZero(0)) return false;
-  for (std::size_t k = 0; k < 3; ++k)
-    if (!((t[(k + 1) % 3] - t[k]).cross(point - t[k]).dot(normal) >= 0)) return false;
-  return true;
-}
-
 }  // namespace
 
 Truth::Truth(const StudyScene& scene)
-    : vertices_(scene.vertices),
-      triangles_(scene.triangles),
-      stiffness_(real(scene.stiffness().translational)),
-      rotational_stiffness_(real(scene.stiffness().rotational)) {
-  for (const auto& points : scene.pieces) {
-    const auto hull = ConvexPolytope<double>::hull_of(points);
-    Piece piece{.shape = test::WideTool(hull)};
-    const auto bounds_of = [&](const auto& corners) {
-      Bounds bounds;
-      for (const int i : corners) bounds.add(piece.shape.vertices[std::size_t(i)]);
-      return bounds;
-    };
-    for (int i = 0; i < hull.vertex_count(); ++i) {
-      piece.vertices.push_back(real(hull.vertex(i)));
-      piece.of_vertex.push_back(bounds_of(std::array{i}));
-      piece.bounds.add(piece.shape.vertices[std::size_t(i)]);
-      radius_ = std::max(radius_, hull.vertex(i).norm());
-    }
-    for (const auto& edge : piece.shape.edges) piece.of_edge.push_back(bounds_of(edge));
-    for (const auto& face : piece.shape.faces) piece.of_face.push_back(bounds_of(face));
-    pieces_.push_back(std::move(piece));
-  }
-  rounding_ = std::numeric_limits<double>::epsilon() * (vertices_.cwiseAbs().maxCoeff() + radius_);
-}
+    : gaps_(scene), stiffness_(real(scene.stiffness().translational)), rotational_stiffness_(real(scene.stiffness().rotational)) {}
 
 Pose<Real> Truth::moved(const Pose<Real>& pose, const Vector6<Real>& step) {
   const RealVector turn = step.tail<3>();
@@ -99,131 +54,9 @@ Real Truth::energy(const Pose<double>& hand, const Pose<Real>& pose) const {
   return (way.dot(stiffness_.cwiseProduct(way)) + turn.dot(rotational_stiffness_.cwiseProduct(turn))) / (2 * stiffness_.maxCoeff());
 }
 
-std::vector<Truth::Near> Truth::pairs_near(const Pose<Real>& pose, double reach) const {
-  std::vector<Near> found;
-  std::set<FeaturePair> known;
-  // About the origin of the tool frame, so that no digits are lost where the scene is far off.
-  const Quaternion<Wide> rotation(wide(pose.rotation.w()), wide(pose.rotation.x()), wide(pose.rotation.y()), wide(pose.rotation.z()));
-  const WideVector origin = wide(pose.translation);
-  std::vector<WidePoints> moved;
-  for (const Piece& piece : pieces_) {
-    auto& vertices = moved.emplace_back();
-    for (const WideVector& v : piece.shape.vertices) vertices.push_back(rotation * v);
-  }
-  for (Eigen::Index row = 0; row < triangles_.rows(); ++row) {
-    std::array<int, 3> ids;
-    std::array<WideVector, 3> t;
-    for (std::size_t k = 0; k < 3; ++k) {
-      ids[k] = triangles_(row, Eigen::Index(k));
-      t[k] = vertices_.row(ids[k]).transpose().cast<Wide>() - origin;
-    }
-    const Wide size = std::max({(t[1] - t[0]).norm(), (t[2] - t[1]).norm(), (t[0] - t[2]).norm()});
-    if ((t[0] + t[1] + t[2]).norm() / 3 - size > Wide(radius_ + reach)) continue;
-    Bounds box;
-    for (const auto& corner : t) box.add(rotation.conjugate() * corner);
-    box.grow(Wide(reach));
-    for (std::size_t p = 0; p < pieces_.size(); ++p) {
-      if (!box.meets(pieces_[p].bounds)) continue;
-      const auto add = [&](const std::array<int, 3>& of_tool, const std::array<int, 3>& of_object, Wide distance) {
-        if (distance > reach) return;
-        FeaturePair pair{int(p), of_tool, of_object};
-        std::sort(pair.object.begin(), pair.object.begin() + count(pair.object));
-        if (known.insert(pair).second) found.push_back({pair, distance});
-      };
-      add_pairs(pieces_[p], moved[p], ids, t, box, add);
-    }
-  }
-  return found;
-}
-
-/// All pairs of a piece and a triangle that are closest inside both of their features.
-template <class Add>
-void Truth::add_pairs(const Piece& piece, const WidePoints& vertices, const std::array<int, 3>& ids, const std::array<WideVector, 3>& t,
-                      const Bounds& box, const Add& add) {
-  const auto vertex = [&](int i) -> const WideVector& { return vertices[std::size_t(i)]; };
-  const WideVector normal = test::detail::normal_of(t[1] - t[0], t[2] - t[0]);
-  for (int i = 0; i < int(vertices.size()); ++i) {
-    if (!box.meets(piece.of_vertex[std::size_t(i)])) continue;
-    if (is_above(vertex(i), t)) add({i, -1, -1}, ids, std::abs(normal.dot(vertex(i) - t[0])));
-    for (std::size_t k = 0; k < 3; ++k) {
-      const std::size_t next = (k + 1) % 3;
-      if (const Wide at = place_on(vertex(i), t[k], t[next]); at > 0 && at < 1)
-        add({i, -1, -1}, {ids[k], ids[next], -1}, (vertex(i) - t[k] - at * (t[next] - t[k])).norm());
-      add({i, -1, -1}, {ids[k], -1, -1}, (vertex(i) - t[k]).norm());
-    }
-  }
-  for (std::size_t e = 0; e < piece.shape.edges.size(); ++e) {
-    if (!box.meets(piece.of_edge[e])) continue;
-    const auto& edge = piece.shape.edges[e];
-    const WideVector &a = vertex(edge[0]), &b = vertex(edge[1]);
-    for (std::size_t k = 0; k < 3; ++k) {
-      const std::size_t next = (k + 1) % 3;
-      if (const Wide at = place_on(t[k], a, b); at > 0 && at < 1) add({edge[0], edge[1], -1}, {ids[k], -1, -1}, (a + at * (b - a) - t[k]).norm());
-      const WideVector across = test::detail::normal_of(b - a, t[next] - t[k]);
-      if (across.isZero(0)) continue;
-      const WideVector u = b - a, v = t[next] - t[k], w = t[k] - a;
-      const Wide area = u.cross(v).dot(across), r = w.cross(v).dot(across) / area, s = w.cross(u).dot(across) / area;
-      if (r > 0 && r < 1 && s > 0 && s < 1) add({edge[0], edge[1], -1}, {ids[k], ids[next], -1}, std::abs(across.dot(w)));
-    }
-  }
-  for (std::size_t f = 0; f < piece.shape.faces.size(); ++f) {
-    if (!box.meets(piece.of_face[f])) continue;
-    const auto& face = piece.shape.faces[f];
-    for (std::size_t i = 2; i < face.size(); ++i) {
-      const std::array<WideVector, 3> part{vertex(face[0]), vertex(face[i - 1]), vertex(face[i])};
-      const WideVector out = test::detail::normal_of(part[1] - part[0], part[2] - part[0]);
-      for (std::size_t k = 0; k < 3; ++k)
-        if (is_above(t[k], part)) add({face[0], face[i - 1], face[i]}, {ids[k], -1, -1}, std::abs(out.dot(t[k] - part[0])));
-    }
-  }
-}
-
-Truth::Gap Truth::gap(const FeaturePair& pair, const Pose<Real>& pose) const {
-  std::array<RealVector, 3> a, b;  // about the origin of the tool frame
-  const int of_tool = count(pair.tool), of_object = count(pair.object);
-  for (std::size_t k = 0; k < std::size_t(of_tool); ++k) a[k] = pose.rotation * pieces_[std::size_t(pair.piece)].vertices[std::size_t(pair.tool[k])];
-  for (std::size_t k = 0; k < std::size_t(of_object); ++k) b[k] = real(vertices_.row(pair.object[k]).transpose()) - pose.translation;
-  RealVector way, arm;  // from the object to the tool, and where on the tool
-  if (of_tool == 2 && of_object == 2) {
-    const RealVector u = a[1] - a[0], v = b[1] - b[0], w = b[0] - a[0], across = u.cross(v);
-    arm = a[0] + w.cross(v).dot(across) / across.squaredNorm() * u;
-    way = -w.dot(across) / across.squaredNorm() * across;
-  } else if (of_object == 3) {
-    const RealVector normal = (b[1] - b[0]).cross(b[2] - b[0]);
-    arm = a[0];
-    way = (a[0] - b[0]).dot(normal) / normal.squaredNorm() * normal;
-  } else if (of_tool == 3) {
-    const RealVector normal = (a[1] - a[0]).cross(a[2] - a[0]);
-    way = (a[0] - b[0]).dot(normal) / normal.squaredNorm() * normal;
-    arm = b[0] + way;
-  } else if (of_object == 2) {
-    const RealVector u = b[1] - b[0], w = a[0] - b[0];
-    arm = a[0];
-    way = w - u.dot(w) / u.squaredNorm() * u;
-  } else if (of_tool == 2) {
-    const RealVector u = a[1] - a[0], w = b[0] - a[0];
-    arm = a[0] + u.dot(w) / u.squaredNorm() * u;
-    way = arm - b[0];
-  } else {
-    arm = a[0];
-    way = a[0] - b[0];
-  }
-  Gap result;
-  result.value = way.norm();
-  const RealVector normal = way / result.value;
-  result.gradient << normal, arm.cross(normal);
-  return result;
-}
-
-Wide Truth::distance(const Pose<Real>& pose, double reach) const {
-  Wide least = std::numeric_limits<Wide>::infinity();
-  for (const Near& near : pairs_near(pose, reach)) least = std::min(least, near.distance);
-  return least;
-}
-
 Vector6<Real> Truth::lagrangian_gradient(const Pose<double>& hand, const NearestPose& answer, const Pose<Real>& pose) const {
   Vector6<Real> gradient = energy_gradient(hand, pose);
-  for (std::size_t i = 0; i < answer.active.size(); ++i) gradient -= answer.multipliers[i] * gap(answer.active[i], pose).gradient;
+  for (std::size_t i = 0; i < answer.active.size(); ++i) gradient -= answer.multipliers[i] * gaps_.gap(answer.active[i], pose).gradient;
   return gradient;
 }
 
@@ -244,7 +77,7 @@ bool Truth::find_active(const Pose<double>& hand, NearestPose& answer, double di
   DualActiveSet<double> solver;
   QpSolution<double> solution;
   for (int iteration = 0; iteration < 150; ++iteration) {
-    const auto near = pairs_near(answer.pose, distance + band);
+    const auto near = gaps_.pairs_near(answer.pose, distance + band);
     QpProblem<double> problem;
     // The curvature of the pairs that held it last, where the whole is convex with it.
     const Matrix6<double> curved = lagrangian_hessian(hand, answer).unaryExpr([](const Real& x) { return static_cast<double>(x); });
@@ -260,7 +93,7 @@ bool Truth::find_active(const Pose<double>& hand, NearestPose& answer, double di
     problem.gradient = energy_gradient(hand, answer.pose).unaryExpr([](const Real& x) { return static_cast<double>(x); });
     std::vector<std::size_t> of_row;
     for (std::size_t i = 0; i < near.size() && problem.row_count < QpProblem<double>::row_capacity; ++i) {
-      const Gap at = gap(near[i].pair, answer.pose);
+      const Gap at = gaps_.gap(near[i].pair, answer.pose);
       problem.add_row(at.gradient.unaryExpr([](const Real& x) { return static_cast<double>(x); }), static_cast<double>(Real(distance - at.value)));
       of_row.push_back(i);
     }
@@ -271,7 +104,7 @@ bool Truth::find_active(const Pose<double>& hand, NearestPose& answer, double di
       answer.active.push_back(near[of_row[std::size_t(active.row)]].pair);
       answer.multipliers.emplace_back(active.multiplier);
     }
-    const double length = solution.step.head<3>().norm() + radius_ * solution.step.tail<3>().norm();
+    const double length = solution.step.head<3>().norm() + gaps_.radius() * solution.step.tail<3>().norm();
     Vector6<double> step = solution.step;
     if (length > longest) step *= longest / length;
     answer.pose = moved(answer.pose, step.cast<Real>());
@@ -290,7 +123,7 @@ bool Truth::newton(const Pose<double>& hand, NearestPose& answer, double distanc
     matrix.topLeftCorner(6, 6) = lagrangian_hessian(hand, answer);
     rest.head(6) = lagrangian_gradient(hand, answer, answer.pose);
     for (Eigen::Index i = 0; i < held; ++i) {
-      const Gap at = gap(answer.active[std::size_t(i)], answer.pose);
+      const Gap at = gaps_.gap(answer.active[std::size_t(i)], answer.pose);
       matrix.block(0, 6 + i, 6, 1) = -at.gradient;
       matrix.block(6 + i, 0, 1, 6) = at.gradient.transpose();
       rest[6 + i] = at.value - distance;
@@ -298,7 +131,7 @@ bool Truth::newton(const Pose<double>& hand, NearestPose& answer, double distanc
     const Vector change = matrix.fullPivLu().solve(-rest);
     answer.pose = moved(answer.pose, change.head<6>());
     for (Eigen::Index i = 0; i < held; ++i) answer.multipliers[std::size_t(i)] += change[6 + i];
-    answer.last_step = change.head<3>().norm() + radius_ * change.segment<3>(3).norm();
+    answer.last_step = change.head<3>().norm() + gaps_.radius() * change.segment<3>(3).norm();
     if (!(answer.last_step < 1e-4)) return false;
     if (answer.last_step < Real("1e-36")) return true;
   }
@@ -310,9 +143,9 @@ bool Truth::refine(const Pose<double>& hand, NearestPose& answer, double distanc
   if (!newton(hand, answer, distance, 12) || !is_stationary(answer, distance)) return false;
   while (answer.active.size() < 6) {
     std::vector<std::pair<Real, FeaturePair>> tight;
-    for (const Near& near : pairs_near(answer.pose, distance + 1e-13)) {
-      const Real room = gap(near.pair, answer.pose).value - distance;
-      if (room < rounding_ && std::find(answer.active.begin(), answer.active.end(), near.pair) == answer.active.end())
+    for (const FeatureGaps::Near& near : gaps_.pairs_near(answer.pose, distance + 1e-13)) {
+      const Real room = gaps_.gap(near.pair, answer.pose).value - distance;
+      if (room < gaps_.rounding() && std::find(answer.active.begin(), answer.active.end(), near.pair) == answer.active.end())
         tight.emplace_back(room, near.pair);
     }
     std::sort(tight.begin(), tight.end());
@@ -335,8 +168,8 @@ bool Truth::refine(const Pose<double>& hand, NearestPose& answer, double distanc
 Eigen::MatrixXd Truth::held_rows(const NearestPose& answer) const {
   Eigen::MatrixXd rows(Eigen::Index(answer.active.size()), 6);
   for (std::size_t i = 0; i < answer.active.size(); ++i) {
-    const Vector6<Real> gradient = gap(answer.active[i], answer.pose).gradient;
-    for (int k = 0; k < 6; ++k) rows(Eigen::Index(i), k) = static_cast<double>(gradient[k]) / (k < 3 ? 1 : radius_);
+    const Vector6<Real> gradient = gaps_.gap(answer.active[i], answer.pose).gradient;
+    for (int k = 0; k < 6; ++k) rows(Eigen::Index(i), k) = static_cast<double>(gradient[k]) / (k < 3 ? 1 : gaps_.radius());
   }
   return rows;
 }
@@ -349,18 +182,19 @@ bool Truth::is_independent(const FeaturePair& pair, NearestPose answer) const {
 
 /// Whether the pairs that are held push, are closest inside both of their features or the same as a pair that is, and no other is nearer.
 bool Truth::is_stationary(const NearestPose& answer, double distance) const {
-  const auto near = pairs_near(answer.pose, distance + 1e-13 + rounding_);
+  const auto near = gaps_.pairs_near(answer.pose, distance + 1e-13 + gaps_.rounding());
   const auto is_met = [&](const FeaturePair& held) {
-    const Gap at = gap(held, answer.pose);
-    return std::any_of(near.begin(), near.end(), [&](const Near& one) {
+    const Gap at = gaps_.gap(held, answer.pose);
+    return std::any_of(near.begin(), near.end(), [&](const FeatureGaps::Near& one) {
       if (one.pair == held) return true;
-      const Gap other = gap(one.pair, answer.pose);
-      return other.value <= distance + rounding_ && (other.gradient - at.gradient).norm() < 1e-7;
+      const Gap other = gaps_.gap(one.pair, answer.pose);
+      return other.value <= distance + gaps_.rounding() && (other.gradient - at.gradient).norm() < 1e-7;
     });
   };
   return std::all_of(answer.active.begin(), answer.active.end(), is_met) &&
          std::all_of(answer.multipliers.begin(), answer.multipliers.end(), [](const Real& multiplier) { return multiplier >= -Real("1e-24"); }) &&
-         std::all_of(near.begin(), near.end(), [&](const Near& one) { return gap(one.pair, answer.pose).value >= distance - rounding_; });
+         std::all_of(near.begin(), near.end(),
+                     [&](const FeatureGaps::Near& one) { return gaps_.gap(one.pair, answer.pose).value >= distance - gaps_.rounding(); });
 }
 
 /// The second-order condition, on the null space of the gradients of what is held.
@@ -369,7 +203,7 @@ bool Truth::is_curved(const Pose<double>& hand, NearestPose& answer) const {
   Eigen::MatrixXd kernel = Eigen::MatrixXd::Identity(6, 6);
   if (!answer.active.empty()) kernel = Eigen::FullPivLU<Eigen::MatrixXd>(held_rows(answer)).kernel();
   Matrix6<double> hessian = lagrangian_hessian(hand, answer).unaryExpr([](const Real& x) { return static_cast<double>(x); });
-  for (int k = 3; k < 6; ++k) hessian.row(k) /= radius_, hessian.col(k) /= radius_;
+  for (int k = 3; k < 6; ++k) hessian.row(k) /= gaps_.radius(), hessian.col(k) /= gaps_.radius();
   const Eigen::MatrixXd basis = Eigen::HouseholderQR<Eigen::MatrixXd>(kernel).householderQ() * Eigen::MatrixXd::Identity(6, kernel.cols());
   const Eigen::MatrixXd reduced = basis.transpose() * ((hessian + hessian.transpose()) / 2) * basis;
   answer.curvature = Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(reduced).eigenvalues().minCoeff();
@@ -387,9 +221,10 @@ std::optional<NearestPose> Truth::nearest(const Pose<double>& hand, const Pose<d
   if (!find_active(hand, answer, first)) return {};
   for (double distance = first;; distance = std::max(last, distance / 4)) {
     NearestPose trial = answer;
-    if (!refine(hand, trial, distance)) {
+    const auto is_found = [&] { return refine(hand, trial, distance) && !gaps_.cuts(trial.pose); };
+    if (!is_found()) {
       trial = answer;
-      if (!find_active(hand, trial, distance) || !refine(hand, trial, distance)) return {};
+      if (!find_active(hand, trial, distance) || !is_found()) return {};
     }
     answer = trial;
     if (distance <= last) break;
