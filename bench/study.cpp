@@ -86,10 +86,11 @@ int study(const Options& options) {
   if (options.is_listed) return list(cells);
   const double seconds = options.seconds > 0 ? options.seconds : options.selection.is_quick ? 0.5 : 2;
   Table table(options.out, cells, provenance(seconds, options.seed));
+  const std::vector<int> groups = groups_of(cells);
   std::vector<int> todo;
   int there = 0;
   for (int i = 0; i < int(cells.size()); ++i) {
-    if (i % options.shards != options.shard - 1) continue;
+    if (groups[std::size_t(i)] % options.shards != options.shard - 1) continue;
     if (table.has(i)) ++there;
     else todo.push_back(i);
   }
@@ -139,7 +140,7 @@ int main(int argc, char** argv) {
   app.add_option("--out", options.out, "folder of study.csv, study_times.csv and the figures; what is there is gone on with");
   app.add_option("--seconds", options.seconds, "length of the motion")->check(CLI::Range(0.1, 1000.0));
   app.add_option("--seed", options.seed, "of how generated surfaces are cut");
-  app.add_option("--shard", shard, "one part of several, such as 2/8: every eighth cell from the second on");
+  app.add_option("--shard", shard, "one part of several, such as 2/8: every eighth truth from the second on, and its cells");
   app.add_option("--merge", options.merged, "folders of shards to make one of, in --out; nothing is measured");
   app.add_flag("!--no-figures", options.draws, "draw nothing");
   app.add_flag("--figures", options.draws_only, "draw the figures of --out again, and measure nothing");

@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <initializer_list>
+#include <map>
 #include <set>
 #include <stdexcept>
+#include <tuple>
 
 #include "study/player.hpp"
 #include "study/scenes.hpp"
@@ -104,6 +106,14 @@ std::vector<Cell> cells_of(const Selection& selection) {
   }
   if (cells.empty()) throw std::invalid_argument("These filters leave no cell; --list shows what there is.");
   return cells;
+}
+
+std::vector<int> groups_of(const std::vector<Cell>& cells) {
+  std::map<std::tuple<std::string, double, double, double>, int> known;
+  std::vector<int> groups;
+  for (const Cell& cell : cells)
+    groups.push_back(known.emplace(std::tuple(cell.scene, cell.scale, cell.offset, cell.margin), int(known.size())).first->second);
+  return groups;
 }
 
 }  // namespace feeler::study

@@ -24,4 +24,7 @@ struct Selection {
 /// @throws std::invalid_argument  for a name that there is not
 std::vector<Cell> cells_of(const Selection& selection);
 
+/// A number a cell, the same for those of one scene, size, place and margin: they share their truth, which takes as long as all else, and so a shard.
+std::vector<int> groups_of(const std::vector<Cell>& cells);
+
 }  // namespace feeler::study
