@@ -31,6 +31,15 @@ bool is_above(const WideVector& point, const std::array<WideVector, 3>& t) {
   return true;
 }
 
+/// Whether a triangle is outside the plane of a face of the tool: most are, and that is soon seen.
+bool is_beyond_a_face(const test::WideTool& shape, const test::WideTriangle& t) {
+  return std::any_of(shape.faces.begin(), shape.faces.end(), [&](const std::vector<int>& face) {
+    const WideVector &a = shape.vertices[std::size_t(face[0])], &b = shape.vertices[std::size_t(face[1])], &c = shape.vertices[std::size_t(face[2])];
+    const WideVector normal = (b - a).cross(c - a);
+    return std::all_of(t.begin(), t.end(), [&](const WideVector& corner) { return normal.dot(corner - a) > 0; });
+  });
+}
+
 }  // namespace
 
 Vector3<Wide> wide(const Vector3<Real>& v) {
@@ -112,7 +121,7 @@ bool FeatureGaps::cuts(const Pose<Real>& pose) const {
   bool found = false;
   visit_near(at, 0, [&](std::size_t p, const std::array<int, 3>&, test::WideTriangle t, const Bounds&) {
     for (WideVector& corner : t) corner = at.rotation.conjugate() * corner;
-    found = found || test::intersect(pieces_[p].shape, t);
+    found = found || (!is_beyond_a_face(pieces_[p].shape, t) && test::intersect(pieces_[p].shape, t));
   });
   return found;
 }
