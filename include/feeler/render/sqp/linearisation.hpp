@@ -11,7 +11,7 @@
 #include "feeler/object/surface_walk.hpp"
 #include "feeler/proximity/highest_corner.hpp"
 #include "feeler/proximity/motion.hpp"
-#include "feeler/proximity/sweep.hpp"
+#include "feeler/proximity/sweep_result.hpp"
 #include "feeler/render/constraints/closest_points_of_pair.hpp"
 #include "feeler/render/constraints/covering_planes.hpp"
 #include "feeler/render/constraints/kept_contacts.hpp"
