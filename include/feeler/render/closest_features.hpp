@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "feeler/core/status.hpp"
+#include "feeler/render/constraints/working_set_growth.hpp"
 #include "feeler/render/contact_method.hpp"
 #include "feeler/render/motion_certificate.hpp"
 #include "feeler/render/rendered_scene.hpp"
@@ -53,7 +54,7 @@ class ClosestFeaturesFollower {
     if (stage_ == Stage::starting) {
       iteration_ = {};
       auto& pairs = linearisation_.pairs();
-      pairs.age(linearisation_.touching(scene), pairs.has_no_clearance(scene.clearance().none()) ? Scalar(0) : scene.noticed(), goes_on_);
+      pairs.age(scene.touching(), pairs.has_no_clearance(scene.clearance().none()) ? Scalar(0) : scene.noticed(), goes_on_);
     }
     budget_.begin_tick(scene.settings().work_budget);
     goes_on_ = !advance(scene, tick);
@@ -256,7 +257,7 @@ class ClosestFeaturesFollower {
       widen(scene);
     } else if (result.blockers.empty()) {
       limits_.shorten(linearisation_.is_empty(), it.length * result.time);
-    } else if (linearisation_.admit(scene, result)) {
+    } else if (take_in_blockers(linearisation_.pairs(), scene, result)) {
       limits_.narrow_to_radius();
     } else {
       limits_.narrow((std::min)(limits_.trust(), it.length) * std::clamp(result.time, Scalar(1) / 4, Scalar(1) / 2));
@@ -272,7 +273,7 @@ class ClosestFeaturesFollower {
     const NoticedTriangles noticed = goes_on ? certificate_.go_on_noticing(scene, tick.work, budget_.limit(), pairs)
                                              : certificate_.notice(scene, it.end, tick.work, budget_.limit(), pairs, reach_of_step(scene));
     it.work += tick.work - begun;
-    const bool is_done = !noticed.is_exhausted && !linearisation_.notice(scene, noticed);
+    const bool is_done = !noticed.is_exhausted && !take_in_noticed(linearisation_.pairs(), scene, noticed);
     const bool is_home = is_done && it.proposal.is_home;
     if (!goes_on || is_home) move_to(scene, is_home ? target_ : it.end, it.length, tick);
     if (!goes_on && !is_done) widen(scene);
@@ -475,7 +476,6 @@ class ClosestFeaturesFollower {
   /// Solves again with the contacts of the certified pose that the motion would break; here and below, if there is work left.
   void keep_contacts(const Scene& scene, const Pose<Scalar>& pose, const Twist<Scalar>& off, bool is_capped, Leg& leg,
                      Tick<MeshScalar>& tick) noexcept {
-    if (!linearisation_.may_break()) return;
     linearisation_.release_kept();
     for (int round = 0; round < 2 && budget_.allows_solve(tick.work) && linearisation_.keep_broken(scene, leg.motion); ++round) {
       project_again(scene, off, is_capped, tick);
@@ -485,7 +485,7 @@ class ClosestFeaturesFollower {
 
   /// Where a step goes back on the last one, each linearisation lacks what stopped the other: solves again with what stopped the last.
   bool reconcile(const Scene& scene, const Twist<Scalar>& off, Tick<MeshScalar>& tick) noexcept {
-    const Twist<Scalar>& last_step = linearisation_.stopped();
+    const Twist<Scalar>& last_step = linearisation_.stops().step();
     const Metric<Scalar>& metric = scene.metric();
     if (!(metric.product(solved_step(), last_step) < -metric.energy(last_step) / 2)) return false;
     if (!budget_.allows_solve(tick.work) || !linearisation_.keep_stops(scene)) return false;
