@@ -8,6 +8,7 @@
 #include <limits>
 
 #include "feeler/core/scalar.hpp"
+#include "feeler/core/unfused_product.hpp"
 #include "feeler/qp/dual/best_row.hpp"
 #include "feeler/qp/dual/fresh_look.hpp"
 #include "feeler/qp/dual/inverse_hessian.hpp"

@@ -6,8 +6,10 @@
 #include <cstddef>
 
 #include "feeler/core/fixed_vector.hpp"
+#include "feeler/core/lane_reductions.hpp"
 #include "feeler/core/lanes.hpp"
 #include "feeler/core/scalar.hpp"
+#include "feeler/core/unfused_product.hpp"
 #include "feeler/qp/dual/active_operators.hpp"
 #include "feeler/qp/dual/inverse_hessian.hpp"
 #include "feeler/qp/dual/six.hpp"
