@@ -8,6 +8,8 @@
 #include <tuple>
 #include <utility>
 
+#include "feeler/core/lane_reductions.hpp"
+#include "feeler/core/single_lanes.hpp"
 #include "feeler/qp/dual/best_row.hpp"
 #include "feeler/qp/dual_active_set.hpp"
 #include "support/qp_laws.hpp"

@@ -6,7 +6,10 @@
 #include <limits>
 
 #include "feeler/contact/contact_row.hpp"
+#include "feeler/contact/edge_edge_rows.hpp"
+#include "feeler/contact/feature_band.hpp"
 #include "feeler/contact/outer_rows.hpp"
+#include "feeler/contact/patch_lengths.hpp"
 #include "feeler/contact/patch_row_maker.hpp"
 #include "feeler/contact/patch_triangle.hpp"
 #include "feeler/contact/surface_around.hpp"
@@ -14,7 +17,6 @@
 #include "feeler/contact/vertex_set.hpp"
 #include "feeler/contact/wall_rim.hpp"
 #include "feeler/core/feature_incidence.hpp"
-#include "feeler/core/fixed_vector.hpp"
 #include "feeler/core/flatten.hpp"
 #include "feeler/core/scalar.hpp"
 #include "feeler/object/surface_walk.hpp"
@@ -23,10 +25,6 @@
 #include "feeler/tool/convex_tool.hpp"
 
 namespace feeler {
-
-/// The rows of one pair.
-template <class Scalar, class Row = ContactRow<Scalar>>
-using PatchRows = FixedVector<Row, 24>;
 
 /// Finds the rows of a pair.
 ///
@@ -57,14 +55,12 @@ class ContactPatch {
   ContactPatch(const Tool& tool, const FeatureIncidence& incidence, const TriangleMesh<MeshScalar>& mesh, const Matrix3<Scalar>& world_from_tool,
                const Vector& reference, Scalar band, bool assumes_valleys, VertexSet& near_vertices) noexcept
       : tool_(tool),
-        incidence_(incidence),
         world_from_tool_(world_from_tool),
-        band_(band),
-        largest_gap_(band / 4),
-        seam_(band / 100000),
+        lengths_(band),
         assumes_valleys_(assumes_valleys),
-        maker_(tool, world_from_tool_, reference, seam_),
-        surface_(mesh, world_from_tool_, seam_),
+        maker_(tool, world_from_tool_, reference, lengths_.seam),
+        surface_(mesh, world_from_tool_, lengths_.seam),
+        features_(tool, incidence, near_vertices),
         near_(near_vertices) {}
   ContactPatch(const ContactPatch&) = delete;
   ContactPatch& operator=(const ContactPatch&) = delete;
@@ -76,20 +72,21 @@ class ContactPatch {
     surface_.stand_on(triangle);
     using std::abs;
     normal_ = closest.normal;
-    near_.clear();
+    features_.clear();
     triangle_.set(corners, normal_);
     // Farther away one row is enough: a step that comes near is linearised again.
-    if (closest.distance <= largest_gap_) {
+    if (closest.distance <= lengths_.largest_gap) {
       triangle_.measure_edges();
-      gather_near_vertices(closest);
+      features_.gather(closest, normal_, lengths_.band);
       add_vertices_on_face(rows);
-      if (near_.size() > 1) add_edges(rows);
-      if (tool_.face_count() > 0 && near_.size() > 2) add_corners_on_faces(rows);
+      if (near_.size() > 1) EdgeEdgeRows<Tool, MeshScalar>(features_, triangle_, surface_, maker_, normal_, lengths_).add_to(rows);
+      if (tool_.face_count() > 0 && near_.size() > 2)
+        features_.for_each_face([&](const ToolFace<Scalar>& face) { this->add_corners_on_face(face, rows); });
     }
-    const Scalar close_enough = closest.distance + abs(closest.distance) / 1000 + seam_ + rounding_of(closest.distance);
+    const Scalar close_enough = closest.distance + abs(closest.distance) / 1000 + lengths_.seam + rounding_of(closest.distance);
     const bool is_met = std::any_of(rows.begin(), rows.end(), [&](const Row& row) { return row.gap <= close_enough; });
     // Overlapping shapes have no closest points: the deepest vertex may lie beside the triangle, where nothing holds it.
-    if (is_met || (closest.is_touching && closest.distance < -seam_ && !rows.empty())) return true;
+    if (is_met || (closest.is_touching && closest.distance < -lengths_.seam && !rows.empty())) return true;
     if (!near_.empty() && surface_.is_inside_wall()) return true;
     if (!keep_ghost && !is_in_cone(closest)) {
       if (assumes_valleys_) add_concave_face(closest, rows);
@@ -117,8 +114,8 @@ class ContactPatch {
     for (const int i : near_) {
       const Vector vertex = tool_.vertex(i);
       if (abs(gap_above_face(vertex)) > gap) continue;
-      const bool is_inside =
-          triangle_.room_inside(0, vertex) >= -seam_ && triangle_.room_inside(1, vertex) >= -seam_ && triangle_.room_inside(2, vertex) >= -seam_;
+      const bool is_inside = triangle_.room_inside(0, vertex) >= -lengths_.seam && triangle_.room_inside(1, vertex) >= -lengths_.seam &&
+                             triangle_.room_inside(2, vertex) >= -lengths_.seam;
       if (is_inside) continue;
       const int under = surface_.triangle_under(vertex, triangle_.corner(0));
       if (under >= 0) visit(under);
@@ -130,7 +127,7 @@ class ContactPatch {
   template <class IsKnown, class Visit>
   void visit_rim(const IsKnown& is_known, const Visit& visit) const noexcept {
     if (surface_.wall() < 0 || near_.size() < 3) return;
-    for_each_near_face([&](const ToolFace<Scalar>& face) {
+    features_.for_each_face([&](const ToolFace<Scalar>& face) {
       if (-face.normal.dot(normal_) < least_cosine) return;
       const auto corner = [&](int i) { return surface_.in_world(tool_.vertex(face.vertices[std::size_t(i)]), triangle_.corner(0)); };
       const Vector outward = world_from_tool_ * face.normal;
@@ -144,26 +141,10 @@ class ContactPatch {
  private:
   inline static const Scalar &least_cosine = PatchTriangle<Scalar>::least_cosine, &plane_tolerance = SurfaceAround<Scalar, MeshScalar>::tolerance;
 
-  static std::size_t index(int i) noexcept { return std::size_t(i); }
-
   /// What a distance may fall short of the truth by [m]: the direction between points so near is rounded, which shows at the ends of a long triangle.
   Scalar rounding_of(Scalar distance) const noexcept {
     using std::abs;
-    return 16 * std::numeric_limits<Scalar>::epsilon() * triangle_.squared_size() / (std::max)(abs(distance), band_ / 1000);
-  }
-
-  /// The tool vertices in the band, from the lowest along edges: below any height a convex tool hangs together.
-  void gather_near_vertices(const ClosestPoints<Scalar>& closest) noexcept {
-    const int lowest = closest.features.size > 0 ? closest.features.tool_vertices[0] : tool_.support(Vector(-normal_));
-    const Scalar limit = normal_.dot(tool_.vertex(lowest)) + band_;
-    near_.add(lowest);
-    for (int i = 0; i < near_.size(); ++i) {
-      for (const int e : incidence_.vertex_edges(near_[i])) {
-        for (const int vertex : incidence_.edge_vertices(e)) {
-          if (!near_.contains(vertex) && normal_.dot(tool_.vertex(vertex)) <= limit) near_.add(vertex);
-        }
-      }
-    }
+    return 16 * std::numeric_limits<Scalar>::epsilon() * triangle_.squared_size() / (std::max)(abs(distance), lengths_.band / 1000);
   }
 
   void add_vertices_on_face(Rows& rows) noexcept {
@@ -181,13 +162,13 @@ class ContactPatch {
     using std::abs;
     const Vector vertex = tool_.vertex(tool_vertex);
     const Scalar gap = gap_above_face(vertex);
-    if (abs(gap) > largest_gap_) return;
+    if (abs(gap) > lengths_.largest_gap) return;
     Scalar room = std::numeric_limits<Scalar>::infinity();
     for (int k = 0; k < 3; ++k) {
       const Scalar inside = triangle_.room_inside(k, vertex);
-      if (inside >= -seam_) room = (std::min)(room, inside);
+      if (inside >= -lengths_.seam) room = (std::min)(room, inside);
       // Beyond a valley what is free is above both faces, and the step may lead back over this one.
-      else if (!(inside >= -band_) || !surface_.rises_across(k, triangle_.outward())) return;
+      else if (!(inside >= -lengths_.band) || !surface_.rises_across(k, triangle_.outward())) return;
     }
     visit(maker_.row_of(FeaturePair::vertex_face, triangle_.outward(), vertex, gap, room));
   }
@@ -196,12 +177,12 @@ class ContactPatch {
 
   /// Of many vertices, as of a round end, those that hold it up.
   FEELER_FLATTEN void add_outer_vertices_on_face(Rows& rows) noexcept {
-    take_outer_rows<Row>([this](const auto& visit) { this->visit_vertices_on_face(visit); }, band_ / 16, rows);
+    take_outer_rows<Row>([this](const auto& visit) { this->visit_vertices_on_face(visit); }, lengths_.band / 16, rows);
   }
 
   /// The triangle's own plane, where the lowest tool vertex is beside it, near, and every edge between them is a valley's.
   FEELER_FLATTEN void add_concave_face(const ClosestPoints<Scalar>& closest, Rows& rows) noexcept {
-    if (!triangle_.has_face() || rows.full() || closest.distance > 4 * band_) return;
+    if (!triangle_.has_face() || rows.full() || closest.distance > 4 * lengths_.band) return;
     for (const Scalar& side : {Scalar(1), Scalar(-1)}) {
       const Vector normal = side * triangle_.face_normal();
       const Vector vertex = tool_.vertex(tool_.support(Vector(-normal)));
@@ -222,21 +203,6 @@ class ContactPatch {
     return true;
   }
 
-  void add_corners_on_faces(Rows& rows) noexcept {
-    for_each_near_face([&](const ToolFace<Scalar>& face) { add_corners_on_face(face, rows); });
-  }
-  /// Those of which all vertices are.
-  template <class Visit>
-  void for_each_near_face(const Visit& visit) const noexcept {
-    for (const int vertex : near_) {
-      for (const int f : incidence_.vertex_faces(vertex)) {
-        const auto all = incidence_.face_vertices(f);
-        if (all.front() != vertex) continue;  // each face once
-        if (std::all_of(all.begin(), all.end(), [this](int v) { return near_.contains(v); })) visit(tool_.face(f));
-      }
-    }
-  }
-
   FEELER_FLATTEN void add_corners_on_face(const ToolFace<Scalar>& face, Rows& rows) noexcept {
     using std::abs;
     const Vector outward = face.normal;
@@ -246,99 +212,14 @@ class ContactPatch {
       if (surface_.is_inside_wall(k)) continue;
       const Vector corner = triangle_.corner(k);
       const Scalar gap = maker_.on_surface(outward.dot(corner - tool_.vertex(loop[0])));
-      if (abs(gap) > largest_gap_) continue;
+      if (abs(gap) > lengths_.largest_gap) continue;
       Scalar room = std::numeric_limits<Scalar>::infinity();
-      for (std::size_t i = 0; i < loop.size() && room >= -seam_; ++i) {
+      for (std::size_t i = 0; i < loop.size() && room >= -lengths_.seam; ++i) {
         const Vector start = tool_.vertex(loop[i]), edge = tool_.vertex(loop[(i + 1) % loop.size()]) - start;
         room = (std::min)(room, area_inside<Scalar>(start, edge, corner, outward) / edge.norm());
       }
-      if (!(room >= -seam_) || !surface_.is_clear_of_neighbours_at_corner(k, Vector(-outward))) continue;
+      if (!(room >= -lengths_.seam) || !surface_.is_clear_of_neighbours_at_corner(k, Vector(-outward))) continue;
       rows.push_back(maker_.row_of(FeaturePair::face_vertex, Vector(-outward), corner, gap, room));
-    }
-  }
-
-  /// An edge of the triangle in the tool frame.
-  struct ObjectEdge {
-    int number = 0;
-    Vector start, span, direction;  // direction: unit
-    Scalar length = Scalar(0);
-  };
-
-  void add_edges(Rows& rows) noexcept {
-    FixedVector<ObjectEdge, 3> object_edges;
-    for (int k = 0; k < 3; ++k) {
-      // An edge inside a flat part of the surface touches nothing.
-      if (surface_.is_flat_across(k)) continue;
-      const Vector& span = triangle_.edge(k);
-      const Scalar length = triangle_.edge_length(k);
-      if (length > Scalar(0)) object_edges.push_back({k, triangle_.corner(k), span, span / length, length});
-    }
-    if (object_edges.empty()) return;
-    for (const int vertex : near_) {
-      for (const int e : incidence_.vertex_edges(vertex)) {
-        const auto& ends = incidence_.edge_vertices(e);
-        if (ends[0] != vertex || !near_.contains(ends[1])) continue;  // each edge once
-        const Vector tool_start = tool_.vertex(vertex), tool = tool_.vertex(ends[1]) - tool_start;
-        for (const ObjectEdge& object : object_edges) add_edge_pair(tool_start, tool, object, rows);
-      }
-    }
-  }
-
-  void add_edge_pair(const Vector& tool_start, const Vector& tool, const ObjectEdge& object, Rows& rows) noexcept {
-    using std::abs;
-    using std::sqrt;
-    const Vector& u = object.direction;
-    const Vector cross = tool.cross(u);
-    const Scalar tool_squared = tool.squaredNorm(), cross_squared = cross.squaredNorm();
-    if (cross_squared < Scalar(1e-6) * tool_squared) {
-      add_parallel_edges(tool_start, tool, object, rows);
-      return;
-    }
-    const Scalar along_normal = cross.dot(normal_);
-    if (along_normal * along_normal < least_cosine * least_cosine * cross_squared) return;
-    // The lines are closest where the difference of their points is along the normal.
-    const Vector between = tool_start - object.start;
-    const Vector across = u.cross(tool);
-    const Scalar along_object = between.cross(tool).dot(across) / cross_squared;
-    const Scalar part_of_tool = between.cross(u).dot(across) / cross_squared;
-    if (!(part_of_tool >= Scalar(0) && part_of_tool <= Scalar(1))) return;
-    const Scalar beyond = (std::max)(-along_object, along_object - object.length);
-    if (!(beyond <= band_)) return;
-    const Vector normal = cross / (along_normal < Scalar(0) ? -sqrt(cross_squared) : sqrt(cross_squared));
-    const Scalar gap = maker_.on_surface(normal.dot(between));
-    if (abs(gap) > largest_gap_ || !surface_.is_clear_of_neighbour_across(object.number, normal)) return;
-    // As beyond a valley.
-    if (beyond > Scalar(0) &&
-        !surface_.rises_beyond(along_object < Scalar(0) ? object.number : (object.number + 1) % 3, along_object < Scalar(0) ? Vector(-u) : u, normal))
-      return;
-    const Scalar tool_length = sqrt(tool_squared);
-    const Scalar room = (std::min)({(std::max)(-beyond, Scalar(0)), part_of_tool * tool_length, (1 - part_of_tool) * tool_length});
-    rows.push_back(maker_.row_of_edges(normal, Vector(tool_start + part_of_tool * tool), gap, room, u, Vector(tool / tool_length)));
-  }
-
-  /// Edges in parallel touch along an interval; its ends hold the tool.
-  FEELER_FLATTEN void add_parallel_edges(const Vector& tool_start, const Vector& tool, const ObjectEdge& edge, Rows& rows) noexcept {
-    using std::abs;
-    const Vector &start = edge.start, &object = edge.span;
-    const Scalar length_squared = tool.squaredNorm();
-    const Scalar first = object.dot(tool) > Scalar(0) ? tool.dot(start - tool_start) : tool.dot(start + object - tool_start);
-    const Scalar extent = abs(object.dot(tool));
-    const Scalar from = (std::max)(Scalar(0), first / length_squared);
-    const Scalar to = (std::min)(Scalar(1), (first + extent) / length_squared);
-    if (!(from < to) || !surface_.is_clear_of_neighbour_across(edge.number, normal_)) return;
-    for (const Scalar& t : {from, to}) {
-      const Vector on_tool = tool_start + t * tool;
-      const Scalar along = object.dot(on_tool - start) / object.squaredNorm();
-      const Vector between = on_tool - start - along * object;
-      const Scalar height = normal_.dot(between);
-      // Far apart across the normal they only look parallel: no contact there.
-      if (abs(maker_.on_surface(height)) > largest_gap_ || (between - height * normal_).norm() > abs(height) + seam_) continue;
-      if constexpr (SweptTool<Tool>) {
-        const Scalar distance = between.norm();
-        rows.push_back(maker_.row_of_point_and_edge(Vector(between / distance), on_tool, maker_.on_surface(distance), object.normalized()));
-      } else {
-        rows.push_back(maker_.row_of(FeaturePair::vertex_face, normal_, on_tool, height));
-      }
     }
   }
 
@@ -349,7 +230,7 @@ class ContactPatch {
       const Vector normal = triangle_.outward();
       return maker_.row_of(FeaturePair::vertex_face, normal, closest.tool_point, normal.dot(closest.tool_point - triangle_.corner(0)));
     }
-    for (const int f : incidence_.vertex_faces(near_[0])) {
+    for (const int f : features_.faces_at(near_[0])) {
       const Vector normal = -tool_.face(f).normal;
       if (!((normal - normal_).norm() < plane_tolerance)) continue;
       Eigen::Index highest;
@@ -371,19 +252,17 @@ class ContactPatch {
   }
 
   const Tool& tool_;
-  const FeatureIncidence& incidence_;
   Matrix3<Scalar> world_from_tool_;
   bool is_filler_ = false;  // see `is_filler()`
-  Scalar band_;
-  Scalar largest_gap_;  // of a row of features that meet [m]
-  Scalar seam_;  // a point so little beside a face counts as over it, or rounding would let it through between two faces [m]
+  PatchLengths<Scalar> lengths_;
   bool assumes_valleys_;
   PatchRowMaker<Tool> maker_;
   SurfaceAround<Scalar, MeshScalar> surface_;
 
   PatchTriangle<Scalar> triangle_;
   Vector normal_;  // of the contact
-  VertexSet& near_;
+  FeatureBand<Tool> features_;
+  const VertexSet& near_;  // those features' vertices
 };
 
 }  // namespace feeler

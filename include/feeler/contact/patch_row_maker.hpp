@@ -13,6 +13,10 @@
 
 namespace feeler {
 
+/// The rows of one pair of a tool and a triangle.
+template <class Scalar, class Row = ContactRow<Scalar>>
+using PatchRows = FixedVector<Row, 24>;
+
 /// Turns a pair of features in the tool frame into a row in world axes.
 ///
 /// Of a swept tool the features are those of its core, and each gap is less by the radius. Where they are points or lines, the row knows how the

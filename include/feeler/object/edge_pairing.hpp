@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "feeler/core/disjoint_sets.hpp"
 #include "feeler/object/mesh_report.hpp"
 
 namespace feeler::detail {
@@ -115,15 +116,7 @@ class EdgePairing {
   /// Corners at a vertex that are joined by manifold edges form a fan; a vertex with two fans is not
   /// manifold.
   void count_non_manifold_vertices(int vertex_count, MeshReport& report) const {
-    std::vector<std::int32_t> parent(neighbours.size());  // union-find over corners
-    std::iota(parent.begin(), parent.end(), 0);
-    const auto root = [&parent](std::int32_t c) {
-      while (parent[std::size_t(c)] != c) {
-        parent[std::size_t(c)] = parent[std::size_t(parent[std::size_t(c)])];
-        c = parent[std::size_t(c)];
-      }
-      return c;
-    };
+    DisjointSets corners(neighbours.size());
     const auto corner_at = [this](std::int32_t triangle, int vertex) {
       const auto& t = triangles_[std::size_t(triangle)];
       return 3 * triangle + (t[0] == vertex ? 0 : t[1] == vertex ? 1 : 2);
@@ -131,11 +124,11 @@ class EdgePairing {
     for (std::int32_t s = 0; s < std::int32_t(neighbours.size()); ++s) {
       const std::int32_t neighbour = neighbours[std::size_t(s)];
       if (neighbour < s / 3) continue;  // none, or done from the other side
-      for (const int vertex : {start_of(s), end_of(s)}) parent[std::size_t(root(corner_at(s / 3, vertex)))] = root(corner_at(neighbour, vertex));
+      for (const int vertex : {start_of(s), end_of(s)}) corners.join(corner_at(s / 3, vertex), corner_at(neighbour, vertex));
     }
     std::vector<std::uint8_t> fans(std::size_t(vertex_count), 0);
     for (std::int32_t s = 0; s < std::int32_t(neighbours.size()); ++s) {
-      if (parent[std::size_t(s)] != s || has_repeated_corner(triangles_[std::size_t(s / 3)])) continue;
+      if (!corners.is_root(s) || has_repeated_corner(triangles_[std::size_t(s / 3)])) continue;
       std::uint8_t& count = fans[std::size_t(start_of(s))];
       if (count < 2 && ++count == 2) ++report.non_manifold_vertices;
     }

@@ -10,6 +10,7 @@
 
 #include <Eigen/Geometry>
 
+#include "feeler/core/disjoint_sets.hpp"
 #include "feeler/core/scalar.hpp"
 #include "feeler/object/ray_crossing.hpp"
 #include "feeler/object/triangle_mesh.hpp"
@@ -49,7 +50,7 @@ class Surfaces {
                           0);  // of a surface: 1 faces outwards, −1 inwards, 0 encloses nothing
     bool is_any = false;
     for (std::size_t s = 0; s < side.size(); ++s) {
-      if (parent_[s] != int(s) || !is_closed_[s]) continue;
+      if (!joined_.is_root(int(s)) || !is_closed_[s]) continue;
       side[s] = volume[s] < 0 ? -1 : 1;
       is_any = is_any || side[s] > 0 || is_turned_[s];
     }
@@ -113,8 +114,8 @@ class Surfaces {
 
   /// Gathers the surface of a triangle over edges of two, and turns them all as the first.
   void flood(int first) {
-    const int surface = int(parent_.size());
-    parent_.push_back(surface);
+    const int surface = int(is_closed_.size());
+    joined_.add();
     is_closed_.push_back(true);
     is_turned_.push_back(false);
     surface_[index(first)] = surface;
@@ -153,7 +154,7 @@ class Surfaces {
       last = &edge;
     });
     for (int& surface : surface_)
-      if (surface >= 0) surface = root(surface);
+      if (surface >= 0) surface = joined_.root(surface);
     each_passage([&](const SharedEdge& edge, int, int direction) {
       if (direction != 0) is_closed_[index(surface_[index(edge.triangle)])] = false;
     });
@@ -171,22 +172,18 @@ class Surfaces {
     }
   }
   void join(int a, int b) {
-    const int from = root(a), to = root(b);
+    const int from = joined_.root(a), to = joined_.root(b);
     if (from == to) return;
-    parent_[index(from)] = to;
+    joined_.join(from, to);
     if (!is_closed_[index(from)]) is_closed_[index(to)] = false;
     if (is_turned_[index(from)]) is_turned_[index(to)] = true;
-  }
-  int root(int s) {
-    while (parent_[index(s)] != s) s = parent_[index(s)] = parent_[index(parent_[index(s)])];
-    return s;
   }
 
   const TriangleMesh<Scalar>& mesh_;
   std::vector<int> surface_;                 // of a triangle; −1 where it has two equal corners
   std::vector<std::int8_t> facing_;          // of a triangle: −1 where it is turned
   std::vector<SharedEdge> shared_;           // by more than two triangles
-  std::vector<int> parent_;                  // of a surface, as joined to others
+  DisjointSets joined_;                      // surfaces
   std::vector<bool> is_closed_, is_turned_;  // of a surface: is_turned_ where a triangle is
 };
 

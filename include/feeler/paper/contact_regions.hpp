@@ -6,7 +6,7 @@
 
 #include "feeler/core/fixed_vector.hpp"
 #include "feeler/paper/first_contacts.hpp"
-#include "feeler/paper/local_search.hpp"
+#include "feeler/paper/triangle_ring.hpp"
 #include "feeler/proximity/separation.hpp"
 #include "feeler/proximity/sweep.hpp"
 #include "feeler/render/rendered_scene.hpp"
@@ -111,7 +111,7 @@ class ContactRegions {
 
   static std::size_t index(int i) noexcept { return std::size_t(i); }
 
-  static auto ring(const Scene& scene, int triangle) noexcept { return LocalSearch<Tool, MeshScalar>::ring(scene.object(), triangle); }
+  static auto ring(const Scene& scene, int triangle) noexcept { return TriangleRing<Scalar, MeshScalar>::around(scene.object(), triangle); }
   template <class Triangles>
   static bool contains(const Triangles& triangles, int triangle) noexcept {
     return std::find(triangles.begin(), triangles.end(), triangle) != triangles.end();

@@ -14,6 +14,7 @@
 #include "feeler/object/triangle_mesh.hpp"
 #include "feeler/paper/candidate_constraint.hpp"
 #include "feeler/paper/first_contacts.hpp"
+#include "feeler/paper/triangle_ring.hpp"
 #include "feeler/spatial/pose.hpp"
 #include "feeler/tool/convex_tool.hpp"
 
@@ -48,72 +49,32 @@ class LocalSearch {
  public:
   using Scalar = typename Tool::Scalar;
   using Vector = Vector3<Scalar>;
-
-  static constexpr int ring_capacity = 48;
+  using Ring = TriangleRing<Scalar, MeshScalar>;
 
   /// @param reach  how far apart features that will meet within the tick may be now [m]
   /// @param near_vertices  is filled with neighbours on the tool; made for at least as many as the tool has vertices
   LocalSearch(const Tool& tool, const TriangleMesh<MeshScalar>& mesh, const Pose<Scalar>& pose, Scalar reach, VertexSet& near_vertices) noexcept
-      : tool_(tool), mesh_(mesh), pose_(pose), axes_(pose.rotation.toRotationMatrix()), reach_(reach), near_(near_vertices) {}
-
-  /// The triangles that share a corner with one, itself first.
-  static FixedVector<int, ring_capacity> ring(const TriangleMesh<MeshScalar>& mesh, int triangle) noexcept {
-    FixedVector<int, ring_capacity> result;
-    result.push_back(triangle);
-    const auto& corners = mesh.triangle(triangle);
-    for (int i = 0; i < result.size(); ++i) {
-      for (int k = 0; k < 3; ++k) {
-        const int other = mesh.topology().neighbour(result[i], k);
-        if (other < 0 || std::find(result.begin(), result.end(), other) != result.end()) continue;
-        const auto& theirs = mesh.triangle(other);
-        const bool shares =
-            std::any_of(theirs.begin(), theirs.end(), [&](int v) { return std::find(corners.begin(), corners.end(), v) != corners.end(); });
-        if (shares && !result.push_back(other)) return result;
-      }
-    }
-    return result;
-  }
+      : tool_(tool), mesh_(mesh), pose_(pose), axes_(pose.rotation.toRotationMatrix()), reach_(reach), ring_(mesh), near_(near_vertices) {}
 
   void find(const FirstContact<Scalar>& contact, RegionCandidates& region) noexcept {
     region.candidates.clear();
-    region.dropped = 0;
-    ring_ = ring(mesh_, contact.triangle);
-    if (ring_.full()) ++region.dropped;
     is_behind_ = is_behind(contact);
+    region.dropped = ring_.find(contact.triangle, is_behind_);
     gather_tool_neighbours(contact);
-    gather_planes(region);
     add_planes(region);
     add_edges(region);
     add_tips(region);
   }
 
  private:
-  struct Plane {
-    int triangle = -1;
-    Vector normal = Vector::Zero();  // towards the tool's side
-    Vector point = Vector::Zero();
-    std::uint64_t members = 0;  // which triangles of the ring lie in it
-  };
+  using Plane = typename Ring::Plane;
 
   static std::size_t index(int i) noexcept { return std::size_t(i); }
-  Vector corner(int triangle, int k) const noexcept { return mesh_.vertex(mesh_.triangle(triangle)[index(k)]).template cast<Scalar>(); }
   Vector tool_vertex(int i) const noexcept { return pose_ * tool_.vertex(i); }
-  Vector outward(int triangle) const noexcept {
-    const Vector normal = mesh_.normal(triangle).template cast<Scalar>();
-    return is_behind_ ? Vector(-normal) : normal;
-  }
-
   /// Meshes may be open, and then the tool may be behind them.
   bool is_behind(const FirstContact<Scalar>& contact) const noexcept {
     return mesh_.normal(contact.triangle).template cast<Scalar>().dot(contact.normal_world) < Scalar(0);
   }
-
-  Convexity convexity(Convexity given) const noexcept {
-    if (given == Convexity::boundary || given == Convexity::non_manifold) return Convexity::convex;
-    if (!is_behind_ || given == Convexity::flat || given == Convexity::mixed) return given;
-    return given == Convexity::convex ? Convexity::concave : Convexity::convex;
-  }
-  Convexity edge_convexity(int triangle, int k) const noexcept { return convexity(mesh_.topology().edge_convexity(triangle, k)); }
 
   void gather_tool_neighbours(const FirstContact<Scalar>& contact) noexcept {
     near_.clear();
@@ -133,43 +94,6 @@ class LocalSearch {
     }
   }
 
-  void gather_planes(RegionCandidates& region) noexcept {
-    using std::abs;
-    planes_.clear();
-    constexpr Scalar parallel = Scalar(1e-9);
-    for (int i = 0; i < ring_.size(); ++i) {
-      const Vector normal = outward(ring_[i]);
-      if (normal.isZero()) continue;
-      const Vector point = corner(ring_[i], 0);
-      auto same = std::find_if(planes_.begin(), planes_.end(), [&](const Plane& plane) {
-        return (plane.normal - normal).squaredNorm() < parallel * parallel && abs(plane.normal.dot(point - plane.point)) < Scalar(1e-9);
-      });
-      if (same == planes_.end()) {
-        if (!planes_.push_back({ring_[i], normal, point, 0})) {
-          ++region.dropped;
-          continue;
-        }
-        same = planes_.end() - 1;
-      }
-      same->members |= std::uint64_t(1) << i;
-    }
-  }
-
-  /// Whether two planes meet in a valley or a pit, or on a ridge or a tip.
-  bool meet(const Plane& a, const Plane& b, Convexity shape) const noexcept {
-    for (int i = 0; i < ring_.size(); ++i) {
-      if ((a.members >> i & 1u) == 0) continue;
-      for (int k = 0; k < 3; ++k) {
-        const int other = mesh_.topology().neighbour(ring_[i], k);
-        if (other >= 0 && edge_convexity(ring_[i], k) == shape && is_member(b, other)) return true;
-        const int vertex = mesh_.triangle(ring_[i])[index(k)];
-        const Convexity at_vertex = mesh_.topology().vertex_convexity(vertex);
-        if (at_vertex != Convexity::boundary && convexity(at_vertex) == shape && has_vertex(b, vertex)) return true;
-      }
-    }
-    return false;
-  }
-
   bool is_above(const Plane& plane) const noexcept {
     for (int v = 0; v < tool_.vertex_count(); ++v) {
       if (near_.contains(v) && plane.normal.dot(tool_vertex(v) - plane.point) < -reach_) return false;
@@ -177,50 +101,15 @@ class LocalSearch {
     return true;
   }
 
-  /// A plane and, one after the other, those that join the set in valleys and meet none of it on a ridge.
-  std::uint64_t convex_piece(int seed) const noexcept {
-    std::uint64_t set = std::uint64_t(1) << seed;
-    for (bool grows = true; grows;) {
-      grows = false;
-      for (int j = 0; j < planes_.size(); ++j) {
-        if ((set >> j & 1u) != 0 || !is_above(planes_[j])) continue;
-        bool joins = false, is_apart = false;
-        for (int i = 0; i < planes_.size(); ++i) {
-          if ((set >> i & 1u) == 0) continue;
-          joins = joins || meet(planes_[i], planes_[j], Convexity::concave);
-          is_apart = is_apart || meet(planes_[i], planes_[j], Convexity::convex);
-        }
-        if (!joins || is_apart) continue;
-        set |= std::uint64_t(1) << j;
-        grows = true;
-      }
-    }
-    return set;
-  }
-  bool is_member(const Plane& plane, int triangle) const noexcept {
-    for (int i = 0; i < ring_.size(); ++i) {
-      if (ring_[i] == triangle) return (plane.members >> i & 1u) != 0;
-    }
-    return false;
-  }
-  bool has_vertex(const Plane& plane, int vertex) const noexcept {
-    for (int i = 0; i < ring_.size(); ++i) {
-      if ((plane.members >> i & 1u) == 0) continue;
-      const auto& corners = mesh_.triangle(ring_[i]);
-      if (std::find(corners.begin(), corners.end(), vertex) != corners.end()) return true;
-    }
-    return false;
-  }
-
   void add_planes(RegionCandidates& region) noexcept {
-    FixedVector<std::uint64_t, plane_capacity> known;  // the sets of planes so far
-    for (int i = 0; i < planes_.size(); ++i) {
-      const std::uint64_t set = convex_piece(i);
+    FixedVector<std::uint64_t, Ring::plane_capacity> known;  // the sets of planes so far
+    for (int i = 0; i < ring_.planes().size(); ++i) {
+      const std::uint64_t set = ring_.convex_piece(i, [this](const Plane& plane) { return is_above(plane); });
       if (std::find(known.begin(), known.end(), set) != known.end()) continue;
       known.push_back(set);
       Candidate candidate;
-      for (int j = 0; j < planes_.size(); ++j) {
-        if ((set >> j & 1u) != 0) add_plane(planes_[j], j == i, candidate, region);
+      for (int j = 0; j < ring_.planes().size(); ++j) {
+        if ((set >> j & 1u) != 0) add_plane(ring_.planes()[j], j == i, candidate, region);
       }
       add(candidate, region);
     }
@@ -229,49 +118,35 @@ class LocalSearch {
   /// Every near tool vertex above a plane; those past a ridge where it ends only if the candidate is the plane's own.
   void add_plane(const Plane& plane, bool is_own, Candidate& candidate, RegionCandidates& region) const noexcept {
     for (int v = 0; v < tool_.vertex_count(); ++v) {
-      if (!near_.contains(v) || (!is_own && is_past_ridge(plane, tool_vertex(v)))) continue;
+      if (!near_.contains(v) || (!is_own && ring_.is_past_ridge(plane, tool_vertex(v), reach_))) continue;
       if (!candidate.constraints.push_back({FeaturePair::vertex_face, v, plane.triangle, 0, is_behind_})) ++region.dropped;
     }
-  }
-
-  bool is_past_ridge(const Plane& plane, const Vector& point) const noexcept {
-    for (int i = 0; i < ring_.size(); ++i) {
-      if ((plane.members >> i & 1u) == 0) continue;
-      const Vector normal = mesh_.normal(ring_[i]).template cast<Scalar>();
-      for (int k = 0; k < 3; ++k) {
-        if (edge_convexity(ring_[i], k) != Convexity::convex) continue;
-        const Vector start = corner(ring_[i], k);
-        const Vector outside = (corner(ring_[i], (k + 1) % 3) - start).cross(normal).normalized();
-        if (outside.dot(point - start) > reach_) return true;
-      }
-    }
-    return false;
   }
 
   void add_edges(RegionCandidates& region) noexcept {
     for (int e = 0; e < tool_.edge_count(); ++e) {
       const ToolEdge edge = tool_.edge(e);
       if (!near_.contains(edge.start) || !near_.contains(edge.end)) continue;
-      for (int i = 0; i < ring_.size(); ++i) {
+      for (int i = 0; i < ring_.triangles().size(); ++i) {
         for (int k = 0; k < 3; ++k) {
-          const int other = mesh_.topology().neighbour(ring_[i], k);
-          if (edge_convexity(ring_[i], k) != Convexity::convex || (other >= 0 && other < ring_[i] && is_in_ring(other))) continue;
-          if (!is_within_reach(e, ring_[i], k)) continue;
+          const int other = mesh_.topology().neighbour(ring_.triangles()[i], k);
+          if (ring_.edge_convexity(ring_.triangles()[i], k) != Convexity::convex ||
+              (other >= 0 && other < ring_.triangles()[i] && ring_.contains(other)))
+            continue;
+          if (!is_within_reach(e, ring_.triangles()[i], k)) continue;
           Candidate candidate;
-          candidate.constraints.push_back({FeaturePair::edge_edge, e, ring_[i], k, is_behind_});
+          candidate.constraints.push_back({FeaturePair::edge_edge, e, ring_.triangles()[i], k, is_behind_});
           add(candidate, region);
         }
       }
     }
   }
 
-  bool is_in_ring(int triangle) const noexcept { return std::find(ring_.begin(), ring_.end(), triangle) != ring_.end(); }
-
   /// Whether a tool edge and an object edge are near each other: by the distance of segments, sampled where the lines are closest.
   bool is_within_reach(int e, int triangle, int k) const noexcept {
     const ToolEdge edge = tool_.edge(e);
     const Vector a = tool_vertex(edge.start), u = tool_vertex(edge.end) - a;
-    const Vector b = corner(triangle, k), v = corner(triangle, (k + 1) % 3) - b;
+    const Vector b = ring_.corner(triangle, k), v = ring_.corner(triangle, (k + 1) % 3) - b;
     const Vector cross = u.cross(v);
     const Scalar area = cross.squaredNorm();
     if (!(area > Scalar(1e-12) * u.squaredNorm() * v.squaredNorm())) return false;  // parallel: the planes hold the tool
@@ -282,20 +157,20 @@ class LocalSearch {
 
   void add_tips(RegionCandidates& region) noexcept {
     using std::abs;
-    FixedVector<int, ring_capacity> known;
-    for (int i = 0; i < ring_.size(); ++i) {
+    FixedVector<int, Ring::capacity> known;
+    for (int i = 0; i < ring_.triangles().size(); ++i) {
       for (int k = 0; k < 3; ++k) {
-        const int vertex = mesh_.triangle(ring_[i])[index(k)];
-        const Convexity shape = convexity(mesh_.topology().vertex_convexity(vertex));
+        const int vertex = mesh_.triangle(ring_.triangles()[i])[index(k)];
+        const Convexity shape = ring_.convexity(mesh_.topology().vertex_convexity(vertex));
         if (shape == Convexity::concave || shape == Convexity::flat) continue;
         if (std::find(known.begin(), known.end(), vertex) != known.end() || !known.push_back(vertex)) continue;
         for (int f = 0; f < tool_.face_count(); ++f) {
           const auto face = tool_.face(f);
           if (std::none_of(face.vertices.begin(), face.vertices.end(), [&](int v) { return near_.contains(v); })) continue;
-          const Scalar height = (axes_ * face.normal).dot(corner(ring_[i], k) - tool_vertex(face.vertices[0]));
+          const Scalar height = (axes_ * face.normal).dot(ring_.corner(ring_.triangles()[i], k) - tool_vertex(face.vertices[0]));
           if (abs(height) > reach_) continue;
           Candidate candidate;
-          candidate.constraints.push_back({FeaturePair::face_vertex, f, ring_[i], k, is_behind_});
+          candidate.constraints.push_back({FeaturePair::face_vertex, f, ring_.triangles()[i], k, is_behind_});
           add(candidate, region);
         }
       }
@@ -306,17 +181,14 @@ class LocalSearch {
     if (!region.candidates.push_back(candidate)) ++region.dropped;
   }
 
-  static constexpr int plane_capacity = 24;
-
   const Tool& tool_;
   const TriangleMesh<MeshScalar>& mesh_;
   Pose<Scalar> pose_;
   Matrix3<Scalar> axes_;
   Scalar reach_;
-  FixedVector<int, ring_capacity> ring_;
+  Ring ring_;
   bool is_behind_ = false;
   VertexSet& near_;
-  FixedVector<Plane, plane_capacity> planes_;
 };
 
 }  // namespace feeler

@@ -19,6 +19,8 @@ struct Clearance {
 
   /// A separation up to it is none: rounding decided how much there is [m].
   Scalar negligible() const noexcept { return 2 * allowance; }
+  /// A separation at a certified pose, or 0 where that is none [m].
+  Scalar certified(Scalar separation) const noexcept { return separation > negligible() ? separation : Scalar(0); }
   /// With a separation below it a wall is slid along without clearance, whichever of its triangles was measured [m].
   Scalar none() const noexcept { return 20 * allowance; }
   /// Separation required along a motion that starts `start` away: tight fits may halve it, an overlap may stay but not grow. To halve

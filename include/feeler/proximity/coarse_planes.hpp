@@ -8,8 +8,10 @@
 #include <cstdint>
 #include <limits>
 
+#include "feeler/core/lane_reductions.hpp"
 #include "feeler/core/lanes.hpp"
 #include "feeler/core/scalar.hpp"
+#include "feeler/core/unfused_product.hpp"
 #include "feeler/object/bvh.hpp"
 
 namespace feeler {

@@ -73,6 +73,12 @@ class RenderedScene {
   const Tool& tool() const noexcept { return tool_; }
   int piece_count() const noexcept { return feeler::piece_count(tool_); }
   const Piece& piece(int i) const noexcept { return piece_of(tool_, i); }
+  /// Of a piece.
+  int largest_vertex_count() const noexcept {
+    int largest = 0;
+    for (int i = 0; i < piece_count(); ++i) largest = (std::max)(largest, piece(i).vertex_count());
+    return largest;
+  }
   /// The pieces of a compound tool in their groups; see `PieceTree`.
   std::span<const PieceGroup<Scalar>> piece_groups() const noexcept
     requires CompoundShape<Tool>
@@ -100,6 +106,8 @@ class RenderedScene {
   Scalar margin() const noexcept { return margin_; }
   /// What is nearer may be what holds the tool; what rests at the margin is far enough [m].
   Scalar noticed() const noexcept { return margin_ - margin_ / 1000; }
+  /// What is nearer touches: any motion may meet it [m].
+  Scalar touching() const noexcept { return 4 * margin_; }
   Scalar trust_radius() const noexcept { return Scalar(settings_.trust_radius); }
 
   /// Pose of the reference point, from the pose of the tool frame.

@@ -11,8 +11,10 @@
 #include <Eigen/Geometry>
 
 #include "feeler/core/result.hpp"
+#include "feeler/tool/convex_hull.hpp"
 #include "feeler/tool/convex_tool.hpp"
 #include "feeler/tool/hull_faces.hpp"
+#include "feeler/tool/hull_lattice.hpp"
 #include "feeler/tool/support_blocks.hpp"
 
 namespace feeler {
@@ -35,7 +37,7 @@ class ConvexPolytope {
   static ConvexPolytope hull_of(const Points<Scalar>& points) { return try_hull_of(points).value(); }
   /// The same, or the reason against it.
   static Result<ConvexPolytope> try_hull_of(const Points<Scalar>& points) {
-    Lattice lattice(points);
+    detail::HullLattice<Scalar> lattice(points);
     if (!lattice.reason.empty()) return Result<ConvexPolytope>::refused(lattice.reason);
     std::vector<detail::LatticePoint> corners = lattice.points;
     std::vector<int> rows(corners.size());  // of the input
@@ -127,84 +129,6 @@ class ConvexPolytope {
   template <RealScalar>
   friend class ConvexPolytope;
   using Working = WorkingScalar<Scalar>;
-
-  /// The points on an integer lattice over their bounding box, where sides of planes are decided exactly.
-  struct Lattice {
-    std::vector<detail::LatticePoint> points;
-    long double tolerance = 0;  // in lattice units
-    std::string reason;         // against a hull; the rest is then of no use
-
-    explicit Lattice(const Points<Scalar>& input) {
-      if (input.rows() < 4) {
-        reason = "ConvexPolytope: " + std::to_string(input.rows()) + " points have no volume; give at least 4, or use Segment for a line";
-        return;
-      }
-      for (int i = 0; i < int(input.rows()); ++i) {
-        if (input.row(i).allFinite()) continue;
-        reason = "ConvexPolytope: point " + std::to_string(i) + " has a NaN or an infinity; remove it or correct its coordinates";
-        return;
-      }
-      const Points<Working> wide = input.template cast<Working>();
-      const Eigen::Matrix<Working, 1, 3> lower = wide.colwise().minCoeff();
-      const Eigen::Matrix<Working, 1, 3> sides = wide.colwise().maxCoeff() - lower;
-      const Working side = sides.maxCoeff();
-      if (!(side > Working(0))) {
-        reason = "ConvexPolytope: all points are equal; give at least 4 that are not in one plane";
-        return;
-      }
-      using std::ldexp;
-      const auto on_lattice = [&](const Working& x) { return static_cast<std::int64_t>(ldexp(Working(x / side), detail::lattice_bits)); };
-      points.reserve(std::size_t(wide.rows()));
-      for (int i = 0; i < int(wide.rows()); ++i)
-        points.push_back({on_lattice(wide(i, 0) - lower[0]), on_lattice(wide(i, 1) - lower[1]), on_lattice(wide(i, 2) - lower[2])});
-      const Working size = (sides / side).norm() + wide.cwiseAbs().maxCoeff() / side;
-      tolerance = static_cast<long double>(ldexp(Working(4 * Working(std::numeric_limits<Scalar>::epsilon()) * size), detail::lattice_bits));
-      tolerance = (std::max)(tolerance, 4.0L);
-    }
-
-    /// Four points far apart: the ends of the longest axis, the point farthest from their line, the point
-    /// farthest from their plane.
-    std::array<int, 4> simplex(const std::vector<detail::LatticePoint>& corners) {
-      std::array<int, 4> result{};
-      std::int64_t longest = -1;
-      for (const auto axis : {&detail::LatticePoint::x, &detail::LatticePoint::y, &detail::LatticePoint::z}) {
-        const auto [low, high] =
-            std::minmax_element(corners.begin(), corners.end(), [axis](const auto& a, const auto& b) { return a.*axis < b.*axis; });
-        if ((*high).*axis - (*low).*axis <= longest) continue;
-        longest = (*high).*axis - (*low).*axis;
-        result[0] = int(low - corners.begin());
-        result[1] = int(high - corners.begin());
-      }
-      const auto& a = corners[std::size_t(result[0])];
-      const auto& b = corners[std::size_t(result[1])];
-      long double width = 0;
-      for (std::size_t i = 0; i < corners.size(); ++i) {
-        const long double height = detail::LatticePlane(a, b, corners[i]).length();
-        if (height > width) {
-          width = height;
-          result[2] = int(i);
-        }
-      }
-      const long double base = std::sqrt(square(b.x - a.x) + square(b.y - a.y) + square(b.z - a.z));
-      if (!(width > tolerance * base)) {
-        reason = "ConvexPolytope: all points are on one line; give points with a volume, or use Segment";
-        return result;
-      }
-      const detail::LatticePlane plane(a, b, corners[std::size_t(result[2])]);
-      long double thickness = 0;
-      for (std::size_t i = 0; i < corners.size(); ++i) {
-        const long double height = std::abs(plane.height(corners[i]));
-        if (height > thickness) {
-          thickness = height;
-          result[3] = int(i);
-        }
-      }
-      if (!(thickness > tolerance)) reason = "ConvexPolytope: all points are in one plane; give points with a volume, for a sheet two layers of them";
-      return result;
-    }
-
-    static long double square(std::int64_t x) { return static_cast<long double>(x) * static_cast<long double>(x); }
-  };
 
   ConvexPolytope() = default;
 

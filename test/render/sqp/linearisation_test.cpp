@@ -207,7 +207,7 @@ BOOST_AUTO_TEST_CASE(what_blocks_is_new_unless_it_has_rows_and_only_a_ghost_is_k
   const auto blocked_by = [&room](int triangle) {
     SweepResult<double> result;
     result.blockers.push_back({triangle, 0.5, 0});
-    return room.lines.admit(room.scene, result);
+    return take_in_blockers(room.lines.pairs(), room.scene, result);
   };
   BOOST_TEST(!blocked_by(0));
   BOOST_TEST(blocked_by(2));
@@ -216,7 +216,7 @@ BOOST_AUTO_TEST_CASE(what_blocks_is_new_unless_it_has_rows_and_only_a_ghost_is_k
   BOOST_TEST(blocked_by(3));
   BOOST_TEST(room.lines.pairs()[room.lines.pairs().find(0, 3)].keeps_ghost);
   Room other(1e-4, {0});
-  BOOST_TEST(other.lines.admit(other.scene, [] {
+  BOOST_TEST(take_in_blockers(other.lines.pairs(), other.scene, [] {
     SweepResult<double> result;
     result.blockers.push_back({1, 0.5, 0});
     return result;

@@ -8,6 +8,8 @@
 
 #include "feeler/core/lanes.hpp"
 #include "feeler/core/scalar.hpp"
+#include "feeler/core/single_lanes.hpp"
+#include "feeler/core/unfused_product.hpp"
 #include "feeler/qp/dual/inverse_hessian.hpp"
 #include "feeler/qp/dual/six.hpp"
 

@@ -8,8 +8,11 @@
 #include <limits>
 #include <type_traits>
 
+#include "feeler/core/lane_reductions.hpp"
 #include "feeler/core/lanes.hpp"
 #include "feeler/core/scalar.hpp"
+#include "feeler/core/single_lanes.hpp"
+#include "feeler/core/unfused_product.hpp"
 
 namespace feeler::detail {
 

@@ -6,8 +6,10 @@
 #include <cstddef>
 #include <limits>
 
+#include "feeler/core/lane_reductions.hpp"
 #include "feeler/core/lanes.hpp"
 #include "feeler/core/scalar.hpp"
+#include "feeler/core/unfused_product.hpp"
 #include "feeler/qp/dual/best_row.hpp"
 #include "feeler/qp/dual/inverse_hessian.hpp"
 #include "feeler/qp/dual/six.hpp"

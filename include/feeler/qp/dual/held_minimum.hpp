@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <limits>
 
+#include "feeler/core/lane_reductions.hpp"
 #include "feeler/core/lanes.hpp"
 #include "feeler/core/scalar.hpp"
 #include "feeler/qp/dual/held_rows.hpp"

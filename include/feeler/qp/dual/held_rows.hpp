@@ -5,8 +5,11 @@
 #include <cstddef>
 #include <utility>
 
+#include "feeler/core/lane_reductions.hpp"
 #include "feeler/core/lanes.hpp"
 #include "feeler/core/scalar.hpp"
+#include "feeler/core/single_lanes.hpp"
+#include "feeler/core/unfused_product.hpp"
 #include "feeler/qp/dual/six.hpp"
 #include "feeler/qp/problem.hpp"
 #include "feeler/qp/warm_start.hpp"

@@ -9,8 +9,10 @@
 #include <limits>
 #include <type_traits>
 
+#include "feeler/core/lane_reductions.hpp"
 #include "feeler/core/lanes.hpp"
 #include "feeler/core/scalar.hpp"
+#include "feeler/core/unfused_product.hpp"
 #include "feeler/qp/dual/six.hpp"
 
 namespace feeler::detail {

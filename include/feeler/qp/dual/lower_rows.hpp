@@ -6,6 +6,7 @@
 
 #include "feeler/core/lanes.hpp"
 #include "feeler/core/scalar.hpp"
+#include "feeler/core/unfused_product.hpp"
 #include "feeler/qp/dual/inverse_hessian.hpp"
 #include "feeler/qp/dual/problem_rows.hpp"
 #include "feeler/qp/dual/row_values.hpp"

@@ -7,8 +7,10 @@
 #include <limits>
 #include <type_traits>
 
+#include "feeler/core/lane_reductions.hpp"
 #include "feeler/core/lanes.hpp"
 #include "feeler/core/scalar.hpp"
+#include "feeler/core/unfused_product.hpp"
 #include "feeler/qp/dual/best_row.hpp"
 #include "feeler/qp/dual/inverse_hessian.hpp"
 #include "feeler/qp/dual/problem_rows.hpp"

@@ -6,7 +6,10 @@
 #include <cstddef>
 #include <utility>
 
+#include "feeler/core/lane_reductions.hpp"
 #include "feeler/core/lanes.hpp"
+#include "feeler/core/single_lanes.hpp"
+#include "feeler/core/unfused_product.hpp"
 #include "feeler/qp/dual/inverse_hessian.hpp"
 #include "feeler/qp/dual/six.hpp"
 

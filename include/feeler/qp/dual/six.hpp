@@ -8,6 +8,7 @@
 #include <limits>
 
 #include "feeler/core/lanes.hpp"
+#include "feeler/core/unfused_product.hpp"
 
 namespace feeler::detail {
 

@@ -7,6 +7,8 @@
 
 #include "feeler/core/lanes.hpp"
 #include "feeler/core/scalar.hpp"
+#include "feeler/core/single_lanes.hpp"
+#include "feeler/core/unfused_product.hpp"
 #include "feeler/qp/dual/lower_rows.hpp"
 #include "feeler/qp/dual/row_values.hpp"
 #include "feeler/qp/dual/six.hpp"

@@ -21,7 +21,6 @@ class KeptContacts {
   using Scalar = typename Row::Scalar;
 
   void clear() noexcept { contacts_.clear(); }
-  bool empty() const noexcept { return contacts_.empty(); }
   /// @param row            at the start of the motion
   /// @param certified_gap  separation of its pair there, 0 where that is none [m]
   void add(const Row& row, Scalar certified_gap) noexcept { contacts_.push_back({row, certified_gap, false}); }

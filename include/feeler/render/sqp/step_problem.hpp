@@ -7,12 +7,11 @@
 
 #include "feeler/contact/contact_row.hpp"
 #include "feeler/core/fixed_vector.hpp"
-#include "feeler/core/flatten.hpp"
 #include "feeler/core/scalar.hpp"
 #include "feeler/qp/qp_solver.hpp"
 #include "feeler/qp/warm_start.hpp"
-#include "feeler/render/sqp/definiteness.hpp"
 #include "feeler/render/sqp/elastic_rows.hpp"
+#include "feeler/render/sqp/lagrangian_hessian.hpp"
 #include "feeler/render/sqp/last_forces.hpp"
 #include "feeler/spatial/metric.hpp"
 
@@ -113,7 +112,7 @@ class StepProblem {
   const Vector6<Scalar>& project(const Metric<Scalar>& metric, const Twist<Scalar>& graphic_from_haptic, Scalar margin) noexcept {
     load_rows(margin);
     if (metric.is_isotropic()) {
-      set_hessian(diagonal_of(metric.diagonal()));
+      detail::set_symmetric(problem_.hessian, detail::diagonal_of(metric.diagonal()));
     } else {
       problem_.hessian = metric.homing_hessian(graphic_from_haptic);
     }
@@ -129,7 +128,7 @@ class StepProblem {
   const Vector6<Scalar>& bend(const Metric<Scalar>& metric, const Twist<Scalar>& graphic_from_haptic) noexcept {
     if (is_free_) return solution_.step;
     projection_ = solution_;
-    set_lagrangian(metric, graphic_from_haptic);
+    is_newton_ = set_lagrangian(problem_, metric, graphic_from_haptic, rows_, projection_.active);
     solve_elastic(WarmStart(projection_));
     // Without its rows the curvature they were given means nothing.
     if (solution_.active.empty()) solution_ = projection_;
@@ -148,7 +147,7 @@ class StepProblem {
     if (last_forces_.empty() || !last_forces_.find(rows_, projection_.active)) return Guess::none;
     load_rows(margin);
     set_price(metric, graphic_from_haptic, margin);
-    set_lagrangian(metric, graphic_from_haptic);
+    is_newton_ = set_lagrangian(problem_, metric, graphic_from_haptic, rows_, projection_.active);
     solve_elastic(WarmStart(projection_));
     if (solution_.active.empty() || is_relaxed()) return Guess::wrong;
     is_free_ = false;
@@ -166,7 +165,7 @@ class StepProblem {
   /// The smallest step that meets the rows.
   const Vector6<Scalar>& restore(const Metric<Scalar>& metric, Scalar margin) noexcept {
     load_rows(margin);
-    set_hessian(diagonal_of(metric.diagonal()));
+    detail::set_symmetric(problem_.hessian, detail::diagonal_of(metric.diagonal()));
     problem_.gradient.setZero();
     solve_elastic();
     return solution_.step;
@@ -228,80 +227,6 @@ class StepProblem {
 
   inline static const Scalar price_per_force = Scalar(24);
   inline static const Scalar picometre = Scalar(1e-12);  // some tolerances of a solver
-
-  /// H = ∇²f − Σ λₖ ∇²sₖ with the forces of the projection, made positive definite where it matters least.
-  ///
-  /// Across the active rows the step is fixed, so ½ρ(Jₖd − bₖ)² added for each changes nothing along them (augmented Lagrangian). Where H
-  /// has negative curvature along the rows too, the tool is about to slip off: there part of the metric takes its place.
-  FEELER_FLATTEN void set_lagrangian(const Metric<Scalar>& metric, const Twist<Scalar>& e) noexcept {
-    const Vector6<Scalar> base = metric.diagonal();
-    problem_.gradient = metric.gradient(e);
-    // Summed before it is subtracted: of contacts between faces much cancels, and does so to the last bit.
-    Matrix6<Scalar> curvature;
-    set_lower(curvature, [](int, int) { return Scalar(0); });
-    for (const auto& active : projection_.active) rows_[active.row].add_curvature(active.multiplier, curvature);
-    const Matrix3<Scalar> turns = metric.hessian_of_turns(e);
-    const auto lagrangian = [&](int i, int j) {
-      const Scalar hessian = j >= 3 ? turns(i - 3, j - 3) : i == j ? base[i] : Scalar(0);
-      return hessian - curvature(i, j);
-    };
-    // Not much flatter than the metric: a flatter one makes steps that no linearisation can carry.
-    const Vector6<Scalar> floor = base * (Scalar(1) / 80);
-    is_newton_ = true;
-    set_hessian(lagrangian);
-    if (is_positive_definite(problem_.hessian, floor)) return;
-
-    Matrix6<Scalar> across;
-    set_lower(across, [](int, int) { return Scalar(0); });
-    Vector6<Scalar> pull = Vector6<Scalar>::Zero();
-    for (const auto& active : projection_.active) {
-      const Vector6<Scalar>& row = problem_.rows[index(active.row)];
-      set_lower(across, [&](int i, int j) { return across(i, j) + row[i] * row[j]; });
-      pull += problem_.bounds[index(active.row)] * row;
-    }
-    for (const Regularisation& regular : regularisations) {
-      const Scalar weight = Scalar(regular.weight), share = Scalar(regular.share);
-      const auto entry = [&](int i, int j) {
-        const Scalar sum = share * lagrangian(i, j) + weight * across(i, j);
-        return i == j ? sum + (Scalar(1) - share) * base[i] : sum;
-      };
-      set_hessian(entry);
-      if (!is_positive_definite(problem_.hessian, floor)) continue;
-      problem_.gradient -= weight * pull;
-      is_newton_ = share == Scalar(1);
-      return;
-    }
-    set_hessian(diagonal_of(base));
-    is_newton_ = false;
-  }
-
-  /// Entries of a diagonal matrix.
-  static auto diagonal_of(const Vector6<Scalar>& diagonal) noexcept {
-    return [diagonal](int i, int j) { return i == j ? diagonal[i] : Scalar(0); };
-  }
-  /// Sets the Hessian to `entry(i, j)`, i ≥ j.
-  template <class Entry>
-  void set_hessian(const Entry& entry) noexcept {
-    auto& h = problem_.hessian;
-    set_lower(h, [&](int i, int j) { return h(j, i) = entry(i, j); });
-  }
-  /// Sets the lower triangle of a matrix, number by number.
-  template <class Entry>
-  static void set_lower(Matrix6<Scalar>& m, const Entry& entry) noexcept {
-#pragma GCC unroll 6
-    for (int j = 0; j < 6; ++j) {
-#pragma GCC unroll 6
-      for (int i = j; i < 6; ++i) m(i, j) = entry(i, j);
-    }
-  }
-
-  /// Stiffness across the active rows, and share of the Lagrangian in what is left to the metric; the first that will do is taken, where the
-  /// Lagrangian alone does not.
-  struct Regularisation {
-    double weight, share;  // a scalar may not be constexpr
-  };
-  static constexpr std::array<Regularisation, 7> regularisations{
-      {{8, 1}, {64, 1}, {1024, 1}, {64, 15.0 / 16}, {64, 3.0 / 4}, {64, 1.0 / 2}, {64, 1.0 / 4}}};
 
   Solver solver_;
   QpProblem<Scalar> problem_;

@@ -1,0 +1,62 @@
+// How triangles that a certificate met join the working set.
+#pragma once
+
+#include "feeler/proximity/gjk.hpp"
+#include "feeler/proximity/sweep_result.hpp"
+#include "feeler/render/constraints/working_set.hpp"
+#include "feeler/tool/compound_tool.hpp"
+
+namespace feeler {
+
+/// Adds a triangle to the working set, and returns its pair.
+/// @param scene     `RenderedScene`
+/// @param features  to start its first query from
+template <class Pairs, class Scene>
+typename Pairs::Pair& take_in(Pairs& pairs, const Scene& scene, int piece, int triangle, WitnessFeatures features) noexcept {
+  auto& pair = pairs.add(piece, triangle, scene.object().corners(triangle).template cast<typename Scene::Scalar>());
+  pair.features = features;
+  return pair;
+}
+
+/// Takes in what is near where a motion ended; false if all of it was there.
+template <class Pairs, class Scene>
+bool take_in_noticed(Pairs& pairs, const Scene& scene, const NoticedTriangles& all) noexcept {
+  bool is_new = false;
+  for (const Noticed& noticed : all) {
+    if (pairs.find(noticed.piece, noticed.triangle) >= 0) continue;
+    take_in(pairs, scene, noticed.piece, noticed.triangle, noticed.features);
+    is_new = true;
+  }
+  return is_new;
+}
+
+/// Takes in what blocked a motion; false when another linearisation would find no more than the last, as all of it was there already with rows of its
+/// own, and it is the way that meets it.
+template <class Pairs, class Scene>
+bool take_in_blockers(Pairs& pairs, const Scene& scene, const SweepResult<typename Scene::Scalar>& result) noexcept {
+  constexpr bool is_convex = maximum_pieces<typename Scene::Tool> == 1;
+  bool is_new = false, meets_left_out = false, meets_touching = false;
+  for (const auto& blocker : result.blockers) {
+    const int i = pairs.find(blocker.piece, blocker.triangle);
+    if (i < 0) {
+      take_in(pairs, scene, blocker.piece, blocker.triangle, blocker.features);
+      is_new = true;
+      continue;
+    }
+    auto& pair = pairs[i];
+    pair.note_use();
+    if (pair.state == PairState::ghost) {
+      is_new = pair.keeps_ghost = true;
+      pair.state = PairState::left_out;  // to be measured again, where all else is carried
+    } else if (pair.slack < scene.touching()) {
+      meets_touching = true;
+      if (is_convex && pair.state == PairState::repeats) pair.state = PairState::left_out;  // to be measured, whatever covers it
+    } else if (pair.state == PairState::left_out) {
+      meets_left_out = true;
+    }
+  }
+  // What touches stops the tool before what was left out comes near.
+  return is_new || (meets_left_out && !meets_touching);
+}
+
+}  // namespace feeler

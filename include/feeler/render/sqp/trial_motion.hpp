@@ -1,0 +1,187 @@
+// The motion that is tried next: steps of a few linearisations, each where the last one ended.
+#pragma once
+
+#include <algorithm>
+
+#include "feeler/core/scalar.hpp"
+#include "feeler/qp/qp_solver.hpp"
+#include "feeler/render/rendered_scene.hpp"
+#include "feeler/render/sqp/linearisation.hpp"
+#include "feeler/render/sqp/sqp_step.hpp"
+#include "feeler/render/sqp/step_limits.hpp"
+#include "feeler/render/sqp/work_budget.hpp"
+#include "feeler/render/tick.hpp"
+#include "feeler/spatial/pose.hpp"
+#include "feeler/spatial/twist.hpp"
+
+namespace feeler {
+
+/// A motion to be certified.
+template <class Scalar>
+struct TrialMotion {
+  Twist<Scalar> motion;        ///< from the certified pose
+  bool is_settled = false;     ///< another linearisation would not change it
+  bool is_capped = false;      ///< the trust region cut it
+  bool is_free = false;        ///< no contact holds the tool
+  bool is_home = false;        ///< and it ends at the haptic pose
+  bool is_at_rest = false;     ///< measured where it starts, the tool would stay
+  bool is_taken_back = false;  ///< its second step took back the first, and what stopped the two holds the tool
+  bool goes_back = false;      ///< with contacts kept from where it starts, its later steps took back most of the first
+  Scalar restoration = 0;      ///< energy that it may cost to win the margin back [m²]
+};
+
+/// Finds trial motions: a step from the certified pose, and, as that ends where other features are closest, further ones from there (second-order
+/// correction). Where the work runs out in a linearisation, it goes on there when it is called again.
+template <RigidTool ToolType, QpSolver Solver>
+class TrialMotionSearch {
+ public:
+  using Scene = RenderedScene<ToolType>;
+  using Scalar = typename Scene::Scalar;
+  using MeshScalar = typename Scene::MeshScalar;
+  using Rows = Linearisation<ToolType, Solver>;
+
+  static constexpr int most_rounds = 4;  // linearisations for one motion
+
+  /// A step that is short whatever the one before it was [m].
+  static Scalar very_short(const Scene& scene) noexcept { return Scalar(scene.settings().step_tolerance) / 50; }
+
+  explicit TrialMotionSearch(const Scene& scene) : linearisation_(scene) {}
+
+  Rows& linearisation() noexcept { return linearisation_; }
+  const Rows& linearisation() const noexcept { return linearisation_; }
+  /// Where the motion leads.
+  const Pose<Scalar>& aim() const noexcept { return aim_; }
+  TrialMotion<Scalar>& motion() noexcept { return motion_; }
+  /// Whether the work ran out amid a linearisation, which can go on.
+  bool is_measuring() const noexcept { return is_measuring_; }
+
+  /// @param start  certified
+  void begin(const Pose<Scalar>& start, const Pose<Scalar>& aim) noexcept {
+    start_ = start;
+    aim_ = aim;
+    rounds_ = {.pose = start};
+    motion_ = {};
+    is_measuring_ = false;
+  }
+
+  /// False where the work runs out: called again it goes on, where it was measuring.
+  /// @param most  linearisations
+  bool find(const Scene& scene, int most, const StepLimits<Scalar>& limits, WorkBudget& budget, Tick<MeshScalar>& tick) noexcept {
+    for (; rounds_.count < most; ++rounds_.count) {
+      const Scalar reach = limits.trust() + scene.margin();  // what is farther away cannot stop the next step
+      if (!linearise(scene, most > 1, reach, budget, tick)) return false;
+      const StepTask<Scalar> task{start_, rounds_.pose, scene.idle_turns().motion_between(aim_, rounds_.pose), limits.trust(), motion_.is_capped};
+      if (take_step(scene, task, limits, budget, tick)) break;
+    }
+    return true;
+  }
+
+ private:
+  /// The linearisations so far.
+  struct Rounds {
+    Pose<Scalar> pose;  // where the next one is
+    int count = 0;
+    bool is_measured = false;      // the last one was: not carried
+    bool assumes_valleys = true;
+    bool is_taken_back = false;    // the second step took back the first
+    Scalar first = 0, previous = 0;  // lengths of steps [m]
+  };
+
+  /// Rows where the motion starts, or where its last step ended; false where there is no work left to measure all pairs, and then to solve for a step.
+  bool linearise(const Scene& scene, bool may_carry, Scalar reach, const WorkBudget& budget, Tick<MeshScalar>& tick) noexcept {
+    const bool goes_on = is_measuring_;
+    const bool has_worked = tick.work > 0;
+    bool is_done;
+    if (goes_on) {
+      is_done = linearisation_.go_on(scene, tick, budget.limit());
+    } else if (rounds_.count == 0) {
+      const auto is_too_late = [&] { return has_worked && !budget.allows_step(tick.work); };  // the next tick has work for it
+      if (is_too_late()) return false;
+      rounds_.is_measured = !(may_carry && linearisation_.start_carried(scene, start_, reach, tick, budget.limit()));
+      if (is_too_late()) return false;
+      is_done = !rounds_.is_measured || linearisation_.start_measured(scene, start_, reach, tick, budget.limit());
+    } else {
+      rounds_.is_measured = !(motion_.is_capped && linearisation_.carry_to(scene, rounds_.pose, tick));
+      is_done = !rounds_.is_measured || linearisation_.move_to(scene, rounds_.pose, rounds_.assumes_valleys, tick, budget.limit());
+    }
+    const bool may_solve = !rounds_.is_measured || budget.allows_step(tick.work) || (goes_on && tick.work == 0);
+    is_measuring_ = !(is_done && may_solve);
+    return !is_measuring_;
+  }
+
+  /// Solves for a step, and goes to where it ends; whether it is the last one.
+  bool take_step(const Scene& scene, const StepTask<Scalar>& task, const StepLimits<Scalar>& limits, WorkBudget& budget,
+                 Tick<MeshScalar>& tick) noexcept {
+    const int begun = tick.work;
+    SqpStep<ToolType, Solver> step(scene, linearisation_, budget, task, tick);
+    Leg<Scalar> leg = solve(scene, step);
+    linearisation_.learn_passed(scene, tick, budget.limit());
+    budget.note_step(tick.work - begun);
+    const Scalar last = scene.length_of(leg.step, task.linearised);
+    if (rounds_.count == 0) {
+      rounds_.first = last;
+      motion_.is_at_rest = rounds_.is_measured && last < very_short(scene) / 100;
+    }
+    const Scalar longest = limits.longest(linearisation_.is_empty());
+    // Where the optimum is flat a step may be of more than a turn, of which a pose would not know the direction.
+    if (!motion_.is_capped && last > 2 * longest) leg = step.leg_of(leg.step * (2 * longest / last));
+    linearisation_.remember_stops(leg.step);
+    rounds_.pose = leg.end;
+    motion_.motion = leg.motion;
+    if (!motion_.is_capped) motion_.is_free = linearisation_.problem().is_free();
+    const Scalar length = scene.length_of(motion_.motion, start_);
+    if (length > longest && !motion_.is_capped) {
+      motion_.is_capped = true;
+      motion_.motion = motion_.motion * (longest / length);
+      rounds_.pose = scene.idle_turns().moved(start_, motion_.motion);
+      return motion_.is_free ||
+             linearisation_.problem().leaves_gaps(scene.idle_turns().motion_between(task.linearised, rounds_.pose), scene.margin() / 2);
+    }
+    if (motion_.is_capped && length > 2 * longest) {  // rows that all but contradict each other are met only far away
+      motion_.motion = motion_.motion * (longest / length);
+      return true;
+    }
+    return is_last(scene, last, length);
+  }
+
+  /// With the contacts that the motion would break, and what stopped the last step where this one goes back.
+  Leg<Scalar> solve(const Scene& scene, SqpStep<ToolType, Solver>& step) noexcept {
+    const bool is_first = rounds_.count == 0;
+    step.solve();
+    if (is_first) motion_.restoration = (std::max)(linearisation_.problem().worth_of_margin(), Scalar(0));
+    Leg<Scalar> leg = is_first ? step.leg() : step.with_kept_contacts(step.leg());
+    if (rounds_.previous > very_short(scene) && !motion_.is_capped && step.reconcile()) {
+      leg = step.leg();
+      rounds_.is_taken_back = rounds_.is_taken_back || rounds_.count == 1;
+    }
+    return leg;
+  }
+
+  /// Whether the step just taken is the last one, and what is so of the motion.
+  /// @param last    length of the step [m]
+  /// @param length  of the motion so far [m]
+  bool is_last(const Scene& scene, Scalar last, Scalar length) noexcept {
+    const auto& problem = linearisation_.problem();
+    const bool rests_on_assumption = problem.rests_on_assumption();
+    rounds_.assumes_valleys = rounds_.assumes_valleys && !rests_on_assumption;  // with it again, two linearisations would take turns
+    // A short step is the last one where steps shrink fast, and go on to, or where it is very short.
+    const bool shrinks_fast = problem.is_newton() && last < rounds_.previous / 10;
+    const bool is_short = last < Scalar(scene.settings().step_tolerance) && (shrinks_fast || last < very_short(scene));
+    rounds_.previous = last;
+    const bool rests_on_kept = problem.rests_on_kept();
+    motion_.is_home = motion_.is_free && !motion_.is_capped && scene.has_led_to(aim_, rounds_.pose, length);
+    motion_.is_taken_back = rounds_.is_taken_back && rests_on_kept && last < very_short(scene) && !motion_.is_capped;
+    motion_.goes_back = rests_on_kept && length < rounds_.first / 4 && !motion_.is_capped;
+    motion_.is_settled = (is_short && rounds_.is_measured && !rests_on_assumption && !rests_on_kept && problem.keeps_features()) || motion_.is_home;
+    return motion_.is_settled || motion_.is_capped || (is_short && rests_on_kept);
+  }
+
+  Rows linearisation_;
+  Pose<Scalar> start_;  // certified
+  Pose<Scalar> aim_;  // where the hand was when the search began
+  Rounds rounds_;
+  TrialMotion<Scalar> motion_;
+  bool is_measuring_ = false;
+};
+
+}  // namespace feeler
