@@ -155,6 +155,7 @@ class ClosestFeaturesFollower {
       budget_.begin_iteration(tick.work);
       outcome = iterate(scene, tick);
       if (outcome == Outcome::arrived && !aims_at_target()) outcome = Outcome::another;
+      if (outcome == Outcome::arrived && !problem().is_optimal()) outcome = Outcome::left;
     } while (outcome == Outcome::another && tick.iterations < maximum_iterations && budget_.allows_another(tick.work) &&
              !(limits_.trust() < resting(scene)));
     if (outcome == Outcome::suspended) ++iteration_.ticks;

@@ -79,6 +79,8 @@ class StepProblem {
   int solves() const noexcept { return solves_; }
   /// Whether the rows are those of the last solution, and some kept or added since.
   bool is_solved() const noexcept { return is_solved_; }
+  /// Whether the solver found the minimum of the last QP. Where it gave up the step is zero, or as far as it got, and proves nothing.
+  bool is_optimal() const noexcept { return is_optimal_; }
   /// Whether the last solution leaves some of the margin out.
   bool is_relaxed() const noexcept { return elastic_.relaxation() > Scalar(0); }
   /// What the margin that the last step wins is worth, to first order [m²].
@@ -213,13 +215,14 @@ class StepProblem {
 
   /// @param start  rows that are likely to be active
   void solve_elastic(const WarmStart& start = {}) noexcept {
-    is_solved_ = true;
+    is_solved_ = is_optimal_ = true;
     solves_ = elastic_.solve(solver_, problem_, price_, picometre, most_solves_, start, solution_);
     if (solves_ > 0) return;
     solves_ = 1;
     // Rounding or curvature may leave a row short of its hard bound by a hair: stay where rows allow it.
     for (int k = 0; k < problem_.row_count; ++k) problem_.bounds[index(k)] = (std::min)(problem_.bounds[index(k)], Scalar(0));
-    if (solver_.solve(problem_, solution_) != QpStatus::optimal) {
+    is_optimal_ = solver_.solve(problem_, solution_) == QpStatus::optimal;
+    if (!is_optimal_) {
       solution_.step.setZero();
       solution_.active.clear();
     }
@@ -242,6 +245,7 @@ class StepProblem {
   Scalar price_ = Scalar(0);  // of the margin, in the unit of multipliers
   int most_solves_ = 24, solves_ = 0;
   bool is_solved_ = false;  // since the rows were last cleared
+  bool is_optimal_ = true;  // as the solver says of the last QP
 };
 
 }  // namespace feeler
