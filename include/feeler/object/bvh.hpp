@@ -87,7 +87,7 @@ class Bvh {
   std::span<const BvhLeaf> leaves() const noexcept { return leaves_; }
   /// The leaves in the box of a child, from one to before another.
   std::array<std::int32_t, 2> leaves_under(std::int32_t child) const noexcept {
-    return BvhNode::is_leaf(child) ? std::array{std::int32_t(~child), std::int32_t(~child + 1)} : ranges_[std::size_t(child)];
+    return BvhNode::is_leaf(child) ? std::array<std::int32_t, 2>{~child, ~child + 1} : ranges_[std::size_t(child)];
   }
 
   /// Calls `visit(triangle)`, until it returns false, for the triangles of the leaves of which no box on the way is

@@ -130,7 +130,9 @@ class EdgePairing {
     for (std::int32_t s = 0; s < std::int32_t(neighbours.size()); ++s) {
       if (!corners.is_root(s) || has_repeated_corner(triangles_[std::size_t(s / 3)])) continue;
       std::uint8_t& count = fans[std::size_t(start_of(s))];
-      if (count < 2 && ++count == 2) ++report.non_manifold_vertices;
+      if (count == 2) continue;
+      ++count;
+      if (count == 2) ++report.non_manifold_vertices;
     }
   }
 

@@ -40,33 +40,18 @@ class Surfaces {
   /// By how much a crossing of each triangle along its normal leaves the solids: 1, −1 where the triangle
   /// faces another way than its surface, 0 for what encloses nothing. Empty where nothing does.
   std::vector<std::int8_t> weights() const {
-    std::vector<double> volume(is_closed_.size(), 0.0);
-    for (int t = 0; t < mesh_.triangle_count(); ++t) {
-      if (surface_[index(t)] < 0) continue;
-      const Matrix3<double> from = mesh_.corners(t).template cast<double>().colwise() - middle();
-      volume[index(surface_[index(t)])] += facing_[index(t)] * from.determinant();
-    }
-    std::vector<int> side(is_closed_.size(),
-                          0);  // of a surface: 1 faces outwards, −1 inwards, 0 encloses nothing
-    bool is_any = false;
-    for (std::size_t s = 0; s < side.size(); ++s) {
-      if (!joined_.is_root(int(s)) || !is_closed_[s]) continue;
-      side[s] = volume[s] < 0 ? -1 : 1;
-      is_any = is_any || side[s] > 0 || is_turned_[s];
-    }
+    const std::vector<int> side = sides();
     std::vector<std::int8_t> result;
+    bool is_any = false;
+    for (std::size_t s = 0; s < side.size(); ++s) is_any = is_any || is_solid(side, s);
     if (!is_any) return result;
     result.assign(surface_.size(), 0);
     std::vector<int> first_inward(side.size(), -1);
     for (int t = 0; t < mesh_.triangle_count(); ++t) {
       if (surface_[index(t)] < 0) continue;
       const std::size_t s = index(surface_[index(t)]);
-      // What does not say itself which side is out, is a solid.
-      if (side[s] > 0 || is_turned_[s]) {
-        result[index(t)] = std::int8_t(side[s] * facing_[index(t)]);
-      } else if (side[s] < 0 && first_inward[s] < 0) {
-        first_inward[s] = t;
-      }
+      if (is_solid(side, s)) result[index(t)] = std::int8_t(side[s] * facing_[index(t)]);
+      else if (side[s] < 0 && first_inward[s] < 0) first_inward[s] = t;
     }
     // A surface that faces inwards is the wall of a cavity where it lies in a solid; else it is a room.
     std::vector<bool> is_cavity(side.size(), false);
@@ -103,6 +88,21 @@ class Surfaces {
     const auto& v = mesh_.triangle(t);
     return v[0] == v[1] || v[1] == v[2] || v[2] == v[0];
   }
+  /// Of each surface: 1 faces outwards, −1 inwards, 0 encloses nothing.
+  std::vector<int> sides() const {
+    std::vector<double> volume(is_closed_.size(), 0.0);
+    for (int t = 0; t < mesh_.triangle_count(); ++t) {
+      if (surface_[index(t)] < 0) continue;
+      const Matrix3<double> from = mesh_.corners(t).template cast<double>().colwise() - middle();
+      volume[index(surface_[index(t)])] += facing_[index(t)] * from.determinant();
+    }
+    std::vector<int> side(is_closed_.size(), 0);
+    for (std::size_t s = 0; s < side.size(); ++s)
+      if (joined_.is_root(int(s)) && is_closed_[s]) side[s] = volume[s] < 0 ? -1 : 1;
+    return side;
+  }
+  /// Whether a surface bounds a solid: it faces outwards, or does not say itself which side is out.
+  bool is_solid(const std::vector<int>& side, std::size_t s) const { return side[s] > 0 || (side[s] != 0 && is_turned_[s]); }
   Vector3<double> middle() const { return mesh_.bvh().origin().template cast<double>(); }
   /// Whether a triangle passes an edge of another the same way.
   bool passes(int t, int from, int to) const noexcept {
@@ -124,24 +124,27 @@ class Surfaces {
     while (!open.empty()) {
       const int t = open.back();
       open.pop_back();
-      for (int k = 0; k < 3; ++k) {
-        const int from = mesh_.triangle(t)[index(k)], to = mesh_.triangle(t)[index((k + 1) % 3)], next = mesh_.topology().neighbour(t, k);
-        if (next == MeshTopology::boundary) is_closed_.back() = false;
-        if (next == MeshTopology::non_manifold) {
-          const int direction = (from < to ? 1 : -1) * facing_[index(t)];
-          shared_.push_back({(std::min)(from, to), (std::max)(from, to), t, direction});
-        }
-        if (next < 0) continue;
-        const auto facing = std::int8_t(passes(next, from, to) ? -facing_[index(t)] : facing_[index(t)]);
-        if (surface_[index(next)] < 0) {
-          surface_[index(next)] = surface;
-          facing_[index(next)] = facing;
-          if (facing < 0) is_turned_.back() = true;
-          open.push_back(next);
-        } else if (facing_[index(next)] != facing) {
-          is_closed_.back() = false;  // it has one side
-        }
-      }
+      for (int k = 0; k < 3; ++k) cross_edge(t, k, open);
+    }
+  }
+
+  /// Takes what is behind an edge into the last surface, and among the triangles that are open.
+  void cross_edge(int t, int k, std::vector<int>& open) {
+    const int from = mesh_.triangle(t)[index(k)], to = mesh_.triangle(t)[index((k + 1) % 3)], next = mesh_.topology().neighbour(t, k);
+    if (next == MeshTopology::boundary) is_closed_.back() = false;
+    if (next == MeshTopology::non_manifold) {
+      const int direction = (from < to ? 1 : -1) * facing_[index(t)];
+      shared_.push_back({(std::min)(from, to), (std::max)(from, to), t, direction});
+    }
+    if (next < 0) return;
+    const auto facing = std::int8_t(passes(next, from, to) ? -facing_[index(t)] : facing_[index(t)]);
+    if (surface_[index(next)] < 0) {
+      surface_[index(next)] = surface_[index(t)];
+      facing_[index(next)] = facing;
+      if (facing < 0) is_turned_.back() = true;
+      open.push_back(next);
+    } else if (facing_[index(next)] != facing) {
+      is_closed_.back() = false;  // it has one side
     }
   }
 

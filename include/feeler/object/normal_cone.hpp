@@ -1,6 +1,7 @@
 // The directions in which an edge or a vertex of a mesh can be touched: what tells a contact from a ghost.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -111,6 +112,15 @@ int triangle_along(const TriangleMesh<Scalar>& mesh, int triangle, int corner, c
   const int vertex = mesh.triangle(triangle)[std::size_t(corner)];
   int best = -1;
   Scalar highest(0);
+  const auto rise = [&](int t) {
+    Scalar most(0);
+    for (const int other : mesh.triangle(t)) {
+      if (other == vertex) continue;
+      const Vector3<Scalar> along = mesh.vertex(other) - mesh.vertex(vertex);
+      most = (std::max)(most, Scalar(direction.dot(along) / sqrt(along.squaredNorm())));
+    }
+    return most;
+  };
   for (const int side : {0, 2}) {  // across the edge that leaves the vertex, and, if the surface ends there, across the one that comes to it
     int current = triangle;
     for (int step = 0; step < max_cone_valence; ++step) {
@@ -119,14 +129,10 @@ int triangle_along(const TriangleMesh<Scalar>& mesh, int triangle, int corner, c
       current = mesh.topology().neighbour(current, (k + side) % 3);
       if (current < 0) break;
       if (current == triangle) return best;
-      for (const int other : mesh.triangle(current)) {
-        if (other == vertex) continue;
-        const Vector3<Scalar> along = mesh.vertex(other) - mesh.vertex(vertex);
-        const Scalar height = direction.dot(along) / sqrt(along.squaredNorm());
-        if (!(height > highest)) continue;
-        highest = height;
-        best = current;
-      }
+      const Scalar height = rise(current);
+      if (!(height > highest)) continue;
+      highest = height;
+      best = current;
     }
   }
   return best;

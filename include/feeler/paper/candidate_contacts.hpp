@@ -96,6 +96,8 @@ class CandidateContactsFollower {
   using Search = CombinationSearch<ToolType, Solver, options>;
   using Solution = typename Search::Solution;
 
+  inline static const Scalar resting = Scalar(1e-11);  // a way as short as this is none [m]
+
   /// How far the certificate lets the tool go towards a solution.
   struct Advance {
     const Solution* solution = nullptr;
@@ -104,6 +106,7 @@ class CandidateContactsFollower {
     Scalar length = Scalar(0);  // of the way to the solution [m]
     Scalar moved = Scalar(0);   // of it certified [m]
     bool is_there = false;
+    bool is_at_rest() const noexcept { return length <= resting; }
   };
 
   void optimise(const Scene& scene, Tick<MeshScalar>& tick) noexcept {
@@ -115,49 +118,59 @@ class CandidateContactsFollower {
   bool follow_certified(const Scene& scene, Tick<MeshScalar>& tick) noexcept
     requires(options.is_certified())
   {
-    constexpr Scalar resting = Scalar(1e-11);
     const int maximum_iterations = (std::min)(scene.settings().maximum_iterations, Tick<MeshScalar>::path_capacity);
     trust_ = regions_.empty() ? std::numeric_limits<Scalar>::infinity() : scene.trust_radius();
     while (tick.iterations < maximum_iterations && tick.work < scene.settings().work_budget) {
       ++tick.iterations;
       optimise(scene, tick);
       bool is_new = false;
-      Advance best;
-      for (const Solution& solution : search_.solutions()) {
-        const Twist<Scalar> motion = motion_between(pose_, solution.pose);
-        const Scalar length = scene.length_of(motion);
-        if (length <= resting) {
-          active_ = solution.active;
-          return true;
-        }
-        const auto result = certificate_.certify(scene, pose_, motion, tick.work, tick.work + scene.settings().work_budget);
-        if (!result.blockers.empty()) is_new = regions_.admit(scene, pose_, result, dropped_) || is_new;
-        const Pose<Scalar> reached = moved(pose_, motion * (result.is_exhausted ? Scalar(0) : result.time));
-        const bool is_there = result.is_whole();
-        const Scalar energy = scene.metric().energy(motion_between(target_, reached));
-        if (best.solution == nullptr || is_there || energy < best.energy) {
-          best = {&solution, reached, energy, length, length * result.time, is_there};
-        }
-        if (is_there) break;
-      }
+      const Advance best = certify_solutions(scene, is_new, tick);
       if (best.solution == nullptr) return false;
+      if (best.is_at_rest()) {
+        active_ = best.solution->active;
+        return true;
+      }
       if (is_new && !best.is_there) {  // with the new regions there are better solutions
         trust_ = scene.trust_radius();
         continue;
       }
       // Creeping up to what blocks would only use up the clearance.
-      if (best.is_there || best.moved > best.length / 8) {
-        if (best.is_there) active_ = best.solution->active;
-        const bool is_whole = best.is_there && !best.solution->is_capped;
-        const bool is_home = is_whole && active_.empty() && scene.has_led_to(target_, best.pose, best.length);
-        pose_ = is_home ? target_ : best.pose;
-        tick.path.push_back(scene.tool_pose(pose_));
-        if (is_whole && (is_home || best.length < Scalar(scene.settings().step_tolerance))) return true;
-      }
+      if ((best.is_there || best.moved > best.length / 8) && advance(scene, best, tick)) return true;
       trust_ = best.is_there ? (std::min)(2 * trust_, scene.trust_radius()) : (std::min)(trust_, best.length) / 4;
       if (trust_ < resting) break;
     }
     return false;
+  }
+
+  /// Certifies the way to each solution, up to the first that can be reached whole, or that the tool is at; the one that leads nearest to the target.
+  /// @param is_new  whether what blocks a way was not among the first contacts
+  Advance certify_solutions(const Scene& scene, bool& is_new, Tick<MeshScalar>& tick) noexcept
+    requires(options.is_certified())
+  {
+    Advance best;
+    for (const Solution& solution : search_.solutions()) {
+      const Twist<Scalar> motion = motion_between(pose_, solution.pose);
+      const Scalar length = scene.length_of(motion);
+      if (length <= resting) return {&solution, pose_, Scalar(0), length, Scalar(0), true};
+      const auto result = certificate_.certify(scene, pose_, motion, tick.work, tick.work + scene.settings().work_budget);
+      if (!result.blockers.empty()) is_new = regions_.admit(scene, pose_, result, dropped_) || is_new;
+      const Pose<Scalar> reached = moved(pose_, motion * (result.is_exhausted ? Scalar(0) : result.time));
+      const Scalar energy = scene.metric().energy(motion_between(target_, reached));
+      if (best.solution == nullptr || result.is_whole() || energy < best.energy)
+        best = {&solution, reached, energy, length, length * result.time, result.is_whole()};
+      if (best.is_there) break;
+    }
+    return best;
+  }
+
+  /// Goes there; true where nothing more comes of it.
+  bool advance(const Scene& scene, const Advance& best, Tick<MeshScalar>& tick) noexcept {
+    if (best.is_there) active_ = best.solution->active;
+    const bool is_whole = best.is_there && !best.solution->is_capped;
+    const bool is_home = is_whole && active_.empty() && scene.has_led_to(target_, best.pose, best.length);
+    pose_ = is_home ? target_ : best.pose;
+    tick.path.push_back(scene.tool_pose(pose_));
+    return is_whole && (is_home || best.length < Scalar(scene.settings().step_tolerance));
   }
 
   struct Nothing {
@@ -165,8 +178,8 @@ class CandidateContactsFollower {
     void clear() noexcept {}
   };
 
-  Pose<Scalar> pose_;    // where the graphic tool is
-  Pose<Scalar> start_;   // where it was when the tick began
+  Pose<Scalar> pose_;  // where the graphic tool is
+  Pose<Scalar> start_;  // where it was when the tick began
   Pose<Scalar> target_;  // the haptic pose
   Scalar trust_ = Scalar(0);  // longest motion proposed to the certificate [m]
   Scalar reach_ = Scalar(0);  // bound on what any tool point moves within the tick, if no fold lets it jump [m]

@@ -116,15 +116,7 @@ class CombinationSearch {
   }
 
   void try_combination(const Scene& scene, const Choice& choice, int region_count, Tick<MeshScalar>& tick) noexcept {
-    constraints_.clear();
-    for (int i = 0; i < region_count; ++i) {
-      if (found_[index(i)].candidates.empty()) continue;
-      for (const CandidateConstraint& constraint : found_[index(i)].candidates[choice[index(i)]].constraints) {
-        if (!constraints_.push_back({constraint, Scalar(0), i})) ++dropped_;
-        // A piece of the free space that the tool cannot enter within a tick is not near.
-        if (row_at(scene, constraint, reach_.pose).gap < -reach_.distance) return;
-      }
-    }
+    if (!gather_constraints(scene, choice, region_count)) return;
     Pose<Scalar> pose = reach_.pose;
     ActiveList active;
     bool is_capped = false;
@@ -133,12 +125,7 @@ class CombinationSearch {
       load(scene, coordinates, pose);
       if (is_capped) problem_.gradient.setZero();  // the smallest step that meets the rows
       tick.rows = (std::max)(tick.rows, problem_.row_count);
-      QpStatus status = solver_.solve(problem_, qp_solution_);
-      if (options.is_certified() && status == QpStatus::infeasible) {
-        relax(scene, pose);
-        status = solver_.solve(problem_, qp_solution_);
-      }
-      if (status != QpStatus::optimal) return;
+      if (!solve_or_relax(scene, pose)) return;
       if (!is_capped) note_active(active);
       pose = coordinates.pose_at(qp_solution_.step);
       if (scene.length_of(Twist<Scalar>::from_vector(qp_solution_.step)) < Scalar(scene.settings().step_tolerance) / 50) break;
@@ -154,6 +141,29 @@ class CombinationSearch {
     // Where there is a certificate, it decides what lies beyond them: a feature that goes on with the next triangle may hold the tool.
     if (!is_chosen_by_box(pose) || !(options.is_certified() || is_on_features)) return;
     keep({pose, scene.metric().energy(motion_between(reach_.target, pose)), active, is_capped, is_on_features});
+  }
+
+  /// The constraints of one candidate a region; false where they bound a piece of the free space that the tool cannot enter within a tick.
+  bool gather_constraints(const Scene& scene, const Choice& choice, int region_count) noexcept {
+    constraints_.clear();
+    for (int i = 0; i < region_count; ++i) {
+      if (found_[index(i)].candidates.empty()) continue;
+      for (const CandidateConstraint& constraint : found_[index(i)].candidates[choice[index(i)]].constraints) {
+        if (!constraints_.push_back({constraint, Scalar(0), i})) ++dropped_;
+        if (row_at(scene, constraint, reach_.pose).gap < -reach_.distance) return false;
+      }
+    }
+    return true;
+  }
+
+  /// Solves, where there is a certificate without the margin if need be; false where there is no solution.
+  bool solve_or_relax(const Scene& scene, const Pose<Scalar>& pose) noexcept {
+    QpStatus status = solver_.solve(problem_, qp_solution_);
+    if (options.is_certified() && status == QpStatus::infeasible) {
+      relax(scene, pose);
+      status = solver_.solve(problem_, qp_solution_);
+    }
+    return status == QpStatus::optimal;
   }
 
   /// The constraints that held the tool in the last optimisation, without the sides of the box.

@@ -156,23 +156,25 @@ class ContactRecogniser {
     rest_.clear();
     for (const Candidate& part : parts_) {
       if (part.object.kind == FeatureKind::face) continue;
-      const SurfaceSide side = measures().side_at(part);
-      for_each_valley(part.object, side, [&](int valley) {
-        const auto faces = surface_.incidence().edge_faces(valley);
-        const bool first = is_covered(part.tool, faces[0]), second = is_covered(part.tool, faces[1]);
-        if (first && second) return;
-        const Feature object = first    ? Feature{FeatureKind::face, faces[1]}
-                               : second ? Feature{FeatureKind::face, faces[0]}
-                                        : Feature{FeatureKind::edge, valley};
-        if (has(contacts_, part.tool, object) || has(rest_, part.tool, object)) return;
-        if (!rest_.push_back({{part.tool, object, part.witnesses}, true})) ++formation_.dropped_contacts;
-      });
+      for_each_valley(part.object, measures().side_at(part), [&](int valley) { restore_uncovered(part, valley); });
     }
     for (const Candidate& extra : rest_) {
       const auto is_larger = [&](const Candidate& other) { return is_part_of(extra, other); };
       if (std::any_of(contacts_.begin(), contacts_.end(), is_larger) || std::any_of(rest_.begin(), rest_.end(), is_larger)) continue;
       if (!contacts_.push_back(extra)) ++formation_.dropped_contacts;
     }
+  }
+
+  /// Adds the contact of a part with what no larger contact covers of a valley: the valley, or one of its faces.
+  void restore_uncovered(const Candidate& part, int valley) noexcept {
+    const auto faces = surface_.incidence().edge_faces(valley);
+    const bool first = is_covered(part.tool, faces[0]), second = is_covered(part.tool, faces[1]);
+    if (first && second) return;
+    const Feature object = first    ? Feature{FeatureKind::face, faces[1]}
+                           : second ? Feature{FeatureKind::face, faces[0]}
+                                    : Feature{FeatureKind::edge, valley};
+    if (has(contacts_, part.tool, object) || has(rest_, part.tool, object)) return;
+    if (!rest_.push_back({{part.tool, object, part.witnesses}, true})) ++formation_.dropped_contacts;
   }
 
   template <class Visit>
@@ -212,25 +214,27 @@ class ContactRecogniser {
     }
   }
 
+  /// Whether a contact touches within ten tolerances of an edge or a vertex of the surface.
+  bool touches_near(const Feature& feature, const Candidate& contact) const noexcept {
+    bool found = false;
+    witnesses_.for_each(contact.witnesses, [&](const Witness& w) {
+      Vector closest;
+      if (feature.kind == FeatureKind::vertex) {
+        closest = search_.local(surface_.vertex(feature.index).point);
+      } else {
+        const auto& edge = surface_.edge(feature.index);
+        closest = closest_on_segment<Scalar>(w.on_tool, search_.local(edge.start), search_.local(edge.end));
+      }
+      found = found || (w.on_tool - closest).squaredNorm() <= Scalar(100) * tolerance_ * tolerance_;
+    });
+    return found;
+  }
+
   /// The concave edge of two faces, or the concave vertex of a face and an edge or of two edges, near a place of touching.
   bool find_valley(const Candidate& a, const Candidate& b, Feature& valley) const noexcept {
     const FeatureIncidence& incidence = surface_.incidence();
     const SurfaceSide side = measures().side_at(a.object.kind == FeatureKind::face ? a : b);
-    const auto is_near = [&](const Feature& feature) {
-      if (surface_.convexity(feature, side) != Convexity::concave) return false;
-      bool found = false;
-      witnesses_.for_each(a.witnesses, [&](const Witness& w) {
-        Vector closest;
-        if (feature.kind == FeatureKind::vertex) {
-          closest = search_.local(surface_.vertex(feature.index).point);
-        } else {
-          const auto& edge = surface_.edge(feature.index);
-          closest = closest_on_segment<Scalar>(w.on_tool, search_.local(edge.start), search_.local(edge.end));
-        }
-        found = found || (w.on_tool - closest).squaredNorm() <= Scalar(100) * tolerance_ * tolerance_;
-      });
-      return found;
-    };
+    const auto is_near = [&](const Feature& feature) { return surface_.convexity(feature, side) == Convexity::concave && touches_near(feature, a); };
     if (a.object.kind == FeatureKind::face && b.object.kind == FeatureKind::face) {
       const auto first = incidence.face_edges(a.object.index), second = incidence.face_edges(b.object.index);
       for (const int edge : first.size() < second.size() ? first : second) {

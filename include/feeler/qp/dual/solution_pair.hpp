@@ -120,7 +120,7 @@ class SolutionPair {
 
   /// Drops active rows until no multiplier is negative.
   void drop_negative() noexcept {
-    while (rows_.size() > 0) {
+    while (!rows_.empty()) {
       const auto least = std::min_element(multipliers_.begin(), multipliers_.begin() + rows_.size());
       if (!(*least < Scalar(0))) return;
       const int slot = int(least - multipliers_.begin());
