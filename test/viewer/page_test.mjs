@@ -1,45 +1,17 @@
 // The live view as a user meets it, in headless Chromium.
-// usage: node page_test.mjs feeler-demo scratch-folder modules-folder chromium
+// usage: node page_test.mjs feeler-demo scratch-folder modules-folder chromium [folder-of-stand-ins]
 import assert from 'node:assert/strict';
 import { spawn } from 'node:child_process';
-import { mkdirSync, readFileSync, rmSync } from 'node:fs';
+import { existsSync, mkdirSync, readFileSync, rmSync } from 'node:fs';
 import { createServer } from 'node:net';
-import { join } from 'node:path';
+import { dirname, join } from 'node:path';
 import { pathToFileURL } from 'node:url';
+import { LiveDemo, startBrowser, until } from './live_demo.mjs';
 
-const [demo, scratch, modules, chromiumPath] = process.argv.slice(2);
-const { chromium } = (await import(pathToFileURL(join(modules, 'playwright-core', 'index.mjs')))).default ??
-  (await import(pathToFileURL(join(modules, 'playwright-core', 'index.mjs'))));
+const [demo, scratch, modules, chromiumPath, standIns = join(dirname(demo), '../../test/device/stand_in')] = process.argv.slice(2);
 rmSync(scratch, { recursive: true, force: true });
 mkdirSync(scratch, { recursive: true });
-
-/** A running feeler-demo. */
-class Demo {
-  static async start(...options) {
-    const demoRun = new Demo();
-    demoRun.child = spawn(demo, ['--view', ...options], { stdio: ['ignore', 'pipe', 'pipe'], env: { ...process.env, DISPLAY: undefined, WAYLAND_DISPLAY: undefined } });
-    demoRun.output = '';
-    demoRun.errors = '';
-    demoRun.child.stdout.on('data', (text) => (demoRun.output += text));
-    demoRun.child.stderr.on('data', (text) => (demoRun.errors += text));
-    demoRun.ended = new Promise((resolve) => demoRun.child.on('exit', resolve));
-    await until(() => /https?:\S+/.test(demoRun.output) || demoRun.child.exitCode !== null, 'the address');
-    demoRun.url = demoRun.output.match(/http:\S+/)?.[0];
-    return demoRun;
-  }
-  async stop() {
-    this.child.kill('SIGINT');
-    return this.ended;
-  }
-}
-
-async function until(condition, what, milliseconds = 30000) {
-  const end = Date.now() + milliseconds;
-  while (!(await condition())) {
-    if (Date.now() > end) throw new Error(`waited in vain for ${what}`);
-    await new Promise((resolve) => setTimeout(resolve, 50));
-  }
-}
+const startDemo = (...options) => LiveDemo.start(demo, '--view', ...options);
 
 async function freePort() {
   const server = createServer().listen(0, '127.0.0.1');
@@ -49,10 +21,7 @@ async function freePort() {
   return port;
 }
 
-const browser = await chromium.launch({
-  executablePath: chromiumPath,
-  args: ['--no-sandbox', '--use-angle=swiftshader', '--enable-unsafe-swiftshader', '--ignore-gpu-blocklist', '--disable-dev-shm-usage'],
-});
+const browser = await startBrowser(modules, chromiumPath);
 const complaints = [];
 
 async function open(url, options = {}) {
@@ -128,7 +97,7 @@ const tests = {
 
   async keys_move_the_hand_and_stop_when_they_are_let_go(page) {
     const before = await frame(page);
-    await page.focus('#first canvas');
+    await page.focus('#first canvas[tabindex]');
     await page.keyboard.down('d');
     await page.waitForTimeout(400);
     await page.keyboard.up('d');
@@ -267,7 +236,7 @@ async function run(name, body) {
   }
 }
 
-const live = await Demo.start('--scene', 'cavity', '--port', '0');
+const live = await startDemo('--scene', 'cavity', '--port', '0');
 let page;
 try {
   await run('the_page_loads_within_seconds_and_without_a_complaint', async () => { page = await open(live.url); });
@@ -301,13 +270,13 @@ try {
 
 await run('a_lost_connection_is_told_and_comes_back', async () => {
   const port = String(await freePort());
-  let server = await Demo.start('--scene', 'cavity', '--port', port);
+  let server = await startDemo('--scene', 'cavity', '--port', port);
   const page = await open(server.url);
   await server.stop();
   await page.waitForFunction(() => /lost/.test(document.getElementById('connection').textContent));
-  server = await Demo.start('--scene', 'steps', '--port', port);
+  server = await startDemo('--scene', 'steps', '--port', port);
   await page.waitForFunction(() => document.getElementById('connection').className === 'open' && feeler.stage.scene === 'steps', null, { timeout: 20000 });
-  const second = await Demo.start('--port', port);
+  const second = await startDemo('--port', port);
   assert.equal(await second.ended, 2);
   assert.match(second.errors, /cannot be had/);
   await server.stop();
@@ -333,7 +302,7 @@ await run('a_report_plays_without_a_server_and_two_are_compared', async () => {
   await player.waitForFunction(() => feeler.player.cursor > 0.2);
   await context.close();
 
-  const replay = await Demo.start('--replay', reports[0].out, reports[1].out, '--port', '0');
+  const replay = await startDemo('--replay', reports[0].out, reports[1].out, '--port', '0');
   const page = await open(replay.url);
   assert.equal(await page.evaluate(() => feeler.recordings.length), 2);
   await page.evaluate(() => feeler.player.seek(0.5));
