@@ -109,6 +109,35 @@ const tests = {
     assert.ok(Math.hypot(...after.haptic.map((v, i) => v - later.haptic[i])) < 1e-4);
   },
 
+  async a_finger_drags_the_tool_and_two_turn_it(page) {
+    await choose(page, 'cavity');
+    const cdp = await page.context().newCDPSession(page);
+    const touch = (type, ...points) => cdp.send('Input.dispatchTouchEvent', { type, touchPoints: points.map(([x, y], id) => ({ x, y, id })) });
+    const before = await page.evaluate(() => feeler.timeline.latest.haptic);
+    const at = await seen(page, before.position);
+    await touch('touchStart', [at.x, at.y]);
+    for (let i = 1; i <= 10; ++i) await touch('touchMove', [at.x + 6 * i, at.y]);
+    await page.waitForFunction((p) => Math.hypot(...feeler.timeline.latest.haptic.position.map((v, k) => v - p[k])) > 1e-3, before.position);
+    const there = [at.x + 60, at.y];
+    await touch('touchStart', there, [there[0] + 80, there[1]]);
+    for (let i = 1; i <= 10; ++i) await touch('touchMove', there, [there[0] + 80 * Math.cos(i / 20), there[1] + 80 * Math.sin(i / 20)]);
+    await page.waitForFunction((q) => Math.abs(feeler.timeline.latest.haptic.quaternion.reduce((sum, v, k) => sum + v * q[k], 0)) < 0.995, before.quaternion);
+    await touch('touchEnd');
+    await nobodyMoves(page);
+  },
+
+  async the_stick_of_a_game_controller_moves_the_hand(page) {
+    await choose(page, 'cavity');
+    const { haptic } = await frame(page);
+    await page.evaluate(() => {
+      window.stick = { axes: [0.6, 0, 0, 0], buttons: [] };
+      navigator.getGamepads = () => [window.stick];
+      dispatchEvent(new Event('gamepadconnected'));
+    });
+    await page.waitForFunction((p) => Math.hypot(...feeler.timeline.latest.haptic.position.map((v, k) => v - p[k])) > 1e-3, haptic);
+    await page.evaluate(() => (navigator.getGamepads = () => []));
+  },
+
   async every_scene_shows_its_motion(page) {
     const scenes = await page.evaluate(() => feeler.greeting.gallery.map(({ id }) => id));
     assert.ok(scenes.includes('cavity') && scenes.includes('spline') && scenes.includes('shaft'));
@@ -200,22 +229,30 @@ const tests = {
       await page.evaluate((name) => feeler.setTheme(name), theme);
       const worst = await page.evaluate(() => {
         const channel = (v) => (v /= 255) <= 0.03928 ? v / 12.92 : ((v + 0.055) / 1.055) ** 2.4;
-        const luminance = (text) => {
-          const [r, g, b] = text.match(/[\d.]+/g).map(Number);
-          return 0.2126 * channel(r) + 0.7152 * channel(g) + 0.0722 * channel(b);
+        const parsed = (text) => {  // red, green, blue of 255, and opacity
+          if (/^#/.test(text)) return [1, 3, 5].map((i) => parseInt(text.slice(i, i + 2), 16)).concat(1);
+          const numbers = text.match(/[\d.]+/g).map(Number);
+          return [...numbers.slice(0, 3).map((v) => (text.startsWith('color(') ? 255 * v : v)), numbers[3] ?? 1];
         };
-        const groundOf = (node) => {
+        const luminance = ([r, g, b]) => 0.2126 * channel(r) + 0.7152 * channel(g) + 0.0722 * channel(b);
+        const over = ([r, g, b, a], ground) => [r, g, b].map((v, k) => a * v + (1 - a) * ground[k]);
+        const object = parsed(feeler.view.palette.object), shades = [object, object.map((v) => 0.3 * v)];  // what may be seen through
+        const groundsOf = (node) => {
+          const layers = [];
           for (; node; node = node.parentElement) {
-            const colour = getComputedStyle(node).backgroundColor;
-            if (!/, 0\)$/.test(colour)) return colour;
+            const colour = parsed(getComputedStyle(node).backgroundColor);
+            if (colour[3] > 0) layers.unshift(colour);
+            if (colour[3] === 1) break;
           }
-          return 'rgb(255, 255, 255)';
+          const ground = layers.shift();
+          return [ground, ...(layers.length > 0 ? shades : [])].map((g) => layers.reduce((below, layer) => over(layer, below), g));
         };
-        const nodes = [...document.querySelectorAll('button, label, p, h2, small, output, dt, dd, figcaption span')].filter((n) => n.offsetParent && n.textContent.trim() && !n.disabled);
-        const ratios = nodes.map((node) => {
-          const [a, b] = [luminance(getComputedStyle(node).color), luminance(groundOf(node))].sort((x, y) => y - x);
+        const nodes = [...document.querySelectorAll('button, label, p, h2, small, output, dt, dd, figcaption span, .legend span, .labels span, .caption, .scale')]
+          .filter((n) => n.offsetParent && n.textContent.trim() && !n.disabled);
+        const ratios = nodes.flatMap((node) => groundsOf(node).map((ground) => {
+          const [a, b] = [luminance(parsed(getComputedStyle(node).color)), luminance(ground)].sort((x, y) => y - x);
           return { ratio: (a + 0.05) / (b + 0.05), text: node.textContent.slice(0, 40) };
-        });
+        }));
         return ratios.reduce((x, y) => (y.ratio < x.ratio ? y : x));
       });
       assert.ok(worst.ratio >= 4.5, `${theme}: ${worst.ratio.toFixed(2)} at "${worst.text}"`);

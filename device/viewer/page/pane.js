@@ -1,6 +1,7 @@
 // One picture with its words: a stage, its frames, and what is written over it.
 import { Vector3 } from 'three';
 import { countTypes, degrees, norm, withUnit } from './format.js';
+import { KeyboardEye } from './keyboard_eye.js';
 import { turnBetween } from './pose.js';
 import { StageView } from './stage_view.js';
 
@@ -22,6 +23,7 @@ export class Pane {
     this.timeline = timeline;
     this.parts = Object.fromEntries([...section.querySelectorAll('[data-part]')].map((part) => [part.dataset.part, part]));
     this.view = new StageView(this.parts);
+    this.eye = new KeyboardEye(this.view);
     this.lastWritten = 0;
   }
 
