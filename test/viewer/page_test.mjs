@@ -224,6 +224,49 @@ const tests = {
     assert.ok(reached.size >= count - 2, `${reached.size} of ${count}`);
   },
 
+  async the_view_turns_and_zooms_by_keys(page) {
+    const eye = () => page.evaluate(() => feeler.view.camera.position.clone().sub(feeler.view.controls.target).toArray());
+    await page.focus('#first canvas[tabindex]');
+    await page.keyboard.press('Home');
+    const before = await eye();
+    await page.keyboard.press('l');
+    const turned = await eye();
+    await page.keyboard.press('+');
+    const nearer = await eye();
+    assert.ok(Math.abs(Math.hypot(...turned) / Math.hypot(...before) - 1) < 1e-6 && Math.hypot(...turned.map((v, k) => v - before[k])) > 0.05 * Math.hypot(...before));
+    assert.ok(Math.hypot(...nearer) < 0.95 * Math.hypot(...turned));
+    await page.keyboard.press('Home');
+    assert.ok(Math.hypot(...(await eye()).map((v, k) => v - before[k])) < 1e-6 * Math.hypot(...before));
+  },
+
+  async the_clearance_view_shows_the_cut_of_the_tightest_place(page) {
+    await choose(page, 'shaft');
+    await page.check('#look [name=magnify]');
+    await page.click('#show');
+    await page.waitForFunction(() => feeler.view.closeUp.place?.gap > 0);
+    await page.click('#still');
+    const shares = await page.evaluate(async () => {
+      await new Promise((resolve) => setTimeout(resolve, 500));
+      const { canvas } = feeler.view.closeUp, { object, graphic } = feeler.view.palette;
+      const pixels = canvas.getContext('2d').getImageData(0, 0, canvas.width, canvas.height).data;
+      const share = (hex) => {
+        const wanted = [1, 3, 5].map((i) => parseInt(hex.slice(i, i + 2), 16));
+        let count = 0;
+        for (let i = 0; i < pixels.length; i += 4) count += wanted.every((v, k) => pixels[i + k] === v) ? 1 : 0;
+        return 4 * count / pixels.length;
+      };
+      return [share(object), share(graphic)];
+    });
+    assert.ok(Math.min(...shares) > 0.1, `wall and tool fill ${shares.map((v) => (100 * v).toFixed(0))} % of it`);
+    assert.match(await page.textContent('.close-up .caption'), /gap .*m/);
+    await page.uncheck('#look [name=magnify]');
+  },
+
+  async nothing_moves_by_style(page) {
+    assert.equal(await page.evaluate(() => document.getAnimations().length), 0);
+    assert.ok(await page.evaluate(() => [...document.querySelectorAll('*')].every((node) => getComputedStyle(node).transitionDuration.split(', ').every((t) => t === '0s'))));
+  },
+
   async words_have_contrast_in_both_themes(page) {
     for (const theme of ['light', 'dark']) {
       await page.evaluate((name) => feeler.setTheme(name), theme);

@@ -295,7 +295,7 @@ class Page {
     this.view.render(true);
     const canvases = [...document.querySelectorAll('#strips canvas')];
     const palette = palettes[this.theme];
-    download(this.fileName('png'), await pngOf(this.view.canvas, canvases, palette, `${this.stage.title} · ${this.panes[0].parts.meta.textContent}`));
+    download(this.fileName('png'), await pngOf(this.view, canvases, palette, `${this.stage.title} · ${this.panes[0].parts.meta.textContent}`));
   }
   saveRecording() {
     const mesh = this.meshBuffer ?? this.recordings[0]?.mesh.buffer;

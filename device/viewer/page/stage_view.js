@@ -92,7 +92,8 @@ export class StageView {
 
   setStage(stage) {
     this.stage = stage;
-    this.frame = null;
+    this.frame = this.mesh = null;
+    this.closeUp.reset();
     this.haptic.setPieces(stage.tool);
     this.graphic.setPieces(stage.tool);
     this.size = 2 * this.graphic.radius;
@@ -242,13 +243,8 @@ export class StageView {
   }
 
   drawCloseUp() {
-    this.closeUp.aim(this.frame, this.camera);
-    const hidden = [this.marks, this.haptic, this.object];
-    const were = hidden.map((part) => part.visible);
-    for (const part of hidden) part.visible = false;
-    this.closeUp.wall.material.color.set(this.palette.object);
-    this.closeUp.draw(this.renderer, this.scene, this.palette.background);
-    hidden.forEach((part, i) => (part.visible = were[i]));
+    this.closeUp.aim(this.frame, tipOf(this.frame.graphic, this.graphic.middle), this.camera);
+    this.closeUp.draw(this.mesh, this.stage.tool, this.frame.graphic, this.palette);
   }
 
   /** Fewer pixels where the machine draws them slowly. */
