@@ -43,7 +43,7 @@ void validate(const Options& options) {
   const bool is_shown_only =
       options.scene && (*options.scene == "spline" || *options.scene == "shaft" || *options.scene == "peg" || *options.scene == "tunnel");
   require(options.views || !is_shown_only, "The scene " + options.scene.value_or("") + " has no report: see it with --view.");
-  require(!options.views || options.device == "simulated", "--view shows the simulated device: leave --device out.");
+  require(!options.views || options.replay.empty() || options.device == "simulated", "--replay plays what was recorded: leave --device out.");
   require(!options.views || !(options.record || options.out), "--view writes no report: leave --record and --out out.");
   require(options.views || options.replay.size() < 2, "--replay takes two files with --view only.");
   const bool has_file = options.object || options.tool || options.start;

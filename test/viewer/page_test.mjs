@@ -364,6 +364,36 @@ await run('a_lost_connection_is_told_and_comes_back', async () => {
   complaints.length = 0;  // the browser notes each attempt
 });
 
+await run('a_real_device_is_the_hand_and_the_page_only_looks', async () => {
+  const library = join(standIns, 'libforce_dimension_stand_in.so');
+  if (!existsSync(library)) return console.log(`skipped: there is no ${library}`);
+  const server = await startDemo('--scene', 'cavity', '--port', '0', '--device', 'forcedimension', '--device-library', library);
+  const page = await open(server.url);
+  assert.equal((await frame(page)).mode, 'device');
+  assert.match(await page.textContent('#sentence'), /You hold the .*handle/);
+  assert.ok(!(await page.isVisible('#show')) && !(await page.isVisible('#still')));
+  const { haptic, graphic } = await frame(page);
+  assert.ok(Math.hypot(...haptic) < 1e-9 && Math.hypot(...graphic) < 1e-6, 'it begins at the start, wherever the handle is');
+  const at = await seen(page, haptic);
+  await page.mouse.move(at.x, at.y);
+  await page.mouse.down();
+  await page.mouse.move(at.x, at.y - 100, { steps: 5 });
+  await page.mouse.up();
+  await page.evaluate(() => feeler.source.playMotion());
+  await page.waitForFunction(() => /so no page moves it/.test(document.getElementById('sentence').textContent));
+  await page.waitForTimeout(200);
+  assert.deepEqual((await frame(page)).haptic, haptic);
+  await choose(page, 'spline');
+  assert.equal((await frame(page)).mode, 'device');
+  assert.ok((await page.evaluate(() => feeler.stage.stiffness)) > 0);
+  await page.context().close();
+  assert.equal(await server.stop(), 0);
+  assert.match(server.output, /missed deadlines/);
+  const missing = await startDemo('--port', '0', '--device', 'virtuose', '--device-library', '/nowhere.so');
+  assert.equal(await missing.ended, 2);
+  assert.equal(missing.errors.trim().split('\n').length, 1);
+});
+
 await run('a_report_plays_without_a_server_and_two_are_compared', async () => {
   const reports = ['0.001', '0.0001'].map((clearance, i) => ({ clearance, out: join(scratch, `report-${i}`) }));
   for (const { clearance, out } of reports) {

@@ -32,7 +32,7 @@ ordered_json choice_json(const char* id, const char* label) { return {{"id", id}
 
 }  // namespace
 
-std::string hello_text(const std::vector<GalleryEntry>& gallery, double rate) {
+std::string hello_text(const std::vector<GalleryEntry>& gallery, double rate, const std::string& device) {
   ordered_json entries = ordered_json::array();
   for (const GalleryEntry& entry : gallery) {
     ordered_json variants = ordered_json::array();
@@ -44,6 +44,7 @@ std::string hello_text(const std::vector<GalleryEntry>& gallery, double rate) {
                       {"version", FEELER_VERSION},
                       {"wire", viewer::wire_version},
                       {"rate", rate},
+                      {"device", device.empty() ? ordered_json(nullptr) : ordered_json(device)},
                       {"gallery", entries},
                       {"methods", {choice_json("closest", "closest features"), choice_json("paper", "the paper's, unverified")}},
                       {"scalars", {choice_json("double", "double"), choice_json("float", "float")}}}

@@ -97,27 +97,32 @@ class Page {
       hello: (hello) => this.hello(hello), stage: (stage) => this.setStage(stage), mesh: (mesh) => this.setMesh(mesh),
       frame: (frame) => this.addFrame(frame), sentence: (_, text) => this.say(text), connection: (state) => this.showConnection(state),
     });
-    const held = new HeldPose(this.view, this.source);
-    const pointer = new PointerHand(held);
-    this.hands = [pointer, new KeyboardHand(held, this.view.canvas), new GamepadHand(held)];
+    this.held = new HeldPose(this.view, this.source);
+    const pointer = new PointerHand(this.held);
+    this.hands = [pointer, new KeyboardHand(this.held, this.view.canvas), new GamepadHand(this.held)];
     $('finger-turns').onclick = () => {
       pointer.turns = !pointer.turns;
       $('finger-turns').setAttribute('aria-pressed', String(pointer.turns));
     };
     $('show').onclick = () => this.source.playMotion();
     $('still').onclick = () => this.source.stopHand();
-    this.invite();
   }
 
-  /** What to do first, until it is done. */
-  invite() {
-    this.say('Drag the tool against a wall, with the mouse, a finger or the arrow keys; ? tells every way.', true);
+  /** What to do first, until it is done. @param device  the name of a real one that is the hand, or null */
+  invite(device) {
+    if (this.isInvited) return;
+    this.isInvited = true;
+    this.say(device ? `You hold the ${device}: press the tool against a wall with its handle; while its first button is down the handle moves alone.`
+      : 'Drag the tool against a wall, with the mouse, a finger or the arrow keys; ? tells every way.', true);
     this.view.canvas.addEventListener('pointerdown', () => this.say(''), { once: true });
     this.view.canvas.addEventListener('keydown', () => this.say(''), { once: true });
   }
 
   hello(hello) {
     this.greeting = hello;
+    this.held.isElsewhere = hello.device !== null;
+    document.body.classList.toggle('on-device', hello.device !== null);
+    this.invite(hello.device);
     this.timeline.restart(hello.rate);
     showGallery($('gallery'), hello.gallery, (request) => this.choose(request));
   }
