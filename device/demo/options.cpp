@@ -117,6 +117,7 @@ CommandLine read_command_line(int argument_count, const char* const* arguments) 
     throw BadInput(std::string(error.what()) + ": see feeler-demo --help.");
   }
   options.is_clearance_given = app.count("--clearance") > 0;
+  options.are_triangles_given = app.count("--triangles") > 0;
   if (app.count("--seconds") > 0) options.view_seconds = options.seconds;
   if (!start.empty()) options.start = Vector3<double>(start[0], start[1], start[2]);
   if (options.object && !options.scene) options.scene = "file";

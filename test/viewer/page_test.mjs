@@ -158,6 +158,8 @@ const tests = {
     await page.waitForFunction((stage) => feeler.stage.stage > stage && feeler.stage.variant === 'cavity 10 µm', before);
     await page.selectOption('#settings select[name=margin]', '1e-7');
     await page.waitForFunction(() => feeler.stage.margin === 1e-7);
+    await page.selectOption('#settings select[name=tool]', 'pebble');
+    await page.waitForFunction(() => feeler.stage.tool_kind === 'pebble' && feeler.stage.tool[0].vertices.length > 8);
     await page.selectOption('#settings select[name=scalar]', 'float');
     await page.waitForFunction(() => feeler.stage.scalar === 'float');
     await page.evaluate(() => feeler.source.send({ type: 'scene', scene: 'moon' }));

@@ -20,6 +20,7 @@
 #include "live/serving.hpp"
 #include "live/stage_description.hpp"
 #include "live/stage_switch.hpp"
+#include "live/tool_choice.hpp"
 #include "real_device.hpp"
 
 namespace feeler::demo {
@@ -68,6 +69,7 @@ class StageBuilder {
     const GalleryEntry* entry = find_entry(gallery_, wish.scene);
     if (entry == nullptr) throw BadInput("There is no scene " + wish.scene + ".");
     LiveScene scene = make_scene(*entry, wish.variant, wish.clearance);
+    choose_tool(scene, wish.tool);
     Settings<double> settings = scene.setting.settings();
     if (wish.stiffness) {
       const double length = scene.setting.length;
@@ -83,8 +85,8 @@ class StageBuilder {
     Shown shown;
     shown.stage = make_stage({++number_, std::move(scene), settings, choice, period_, device_ != nullptr});
     const std::string variant = wish.clearance ? "" : wish.variant.empty() ? entry->variants.front().label : wish.variant;
-    shown.text =
-        shared_text(stage_text(number_, shown.stage->scene(), {settings, choice}, {entry->id, entry->title, entry->hint, variant, wish.clearance}));
+    shown.text = shared_text(stage_text(number_, shown.stage->scene(), {settings, choice},
+                                        {entry->id, entry->title, entry->hint, variant, wish.clearance, wish.tool.empty() ? "own" : wish.tool}));
     const scenes::Setting& setting = shown.stage->scene().setting;
     shown.mesh = shared_text(viewer::encoded_mesh(number_, setting.vertices, setting.triangles));
     return shown;

@@ -17,6 +17,7 @@ struct StageOrigin {
   std::string hint;                      ///< what to try
   std::string variant;                   ///< its label
   std::optional<double> clearance = {};  ///< chosen by hand [m]
+  std::string tool = "own";              ///< an id of `tool_kinds`
 };
 
 /// How a stage is rendered, for those who read of it.
