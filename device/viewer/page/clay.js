@@ -7,6 +7,7 @@ uniform vec3 inner;
 varying vec3 front;
 varying vec3 back;
 varying vec3 place;
+varying float facing;
 
 float shade(vec3 n, float sky) {
   return 0.30 + 0.16 * sky + 0.56 * max(dot(n, vec3(0.222, 0.400, 0.889)), 0.0);  // the lamp is above the eye, a little to the right
@@ -18,7 +19,9 @@ void main() {
   front = colour * shade(n, sky);
   back = inner * shade(-n, -sky);
   place = (modelMatrix * vec4(position, 1.0)).xyz;
-  gl_Position = projectionMatrix * modelViewMatrix * vec4(position, 1.0);
+  vec4 seen = modelViewMatrix * vec4(position, 1.0);
+  facing = dot(n, -normalize(seen.xyz));
+  gl_Position = projectionMatrix * seen;
 }`;
 
 const fragmentShader = `
@@ -27,10 +30,12 @@ uniform vec4 cut;
 varying vec3 front;
 varying vec3 back;
 varying vec3 place;
+varying float facing;
 
 void main() {
   if (dot(cut.xyz, place) > cut.w) discard;
-  gl_FragColor = vec4(gl_FrontFacing ? front : back, opacity);
+  bool isFront = gl_FrontFacing || facing > -0.15;  // a smooth ridge has triangles that just face away, and would be speckled
+  gl_FragColor = vec4(isFront ? front : back, opacity);
   #include <colorspace_fragment>
 }`;
 
