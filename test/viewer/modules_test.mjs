@@ -168,14 +168,15 @@ test('the cut of a tool is a polygon round its middle, at its pose', () => {
   near(cutPiece(edge, { position: [0, 0, 5], quaternion: [0, -Math.SQRT1_2, 0, Math.SQRT1_2] }, across(5.5), 1e-3)[0], [0, 0]);
 });
 
-test('a gap is from the lowest place of the tool to the wall below it', () => {
+test('a gap is where the tool is nearest above the wall', () => {
   const floor = (v) => ({ from: [-1, v], to: [1, v] });
-  const tooth = [[0.01, 0.2], [0.5, 0.7], [-0.5, 0.7]];
-  assert.deepEqual(gapBetween([floor(-0.1), floor(-0.3), floor(0.5)], [tooth], 1), { u: 0.01, wall: -0.1, tool: 0.2 });
+  const tooth = [[0.01, 0.2], [0.5, 0.7], [-0.5, 0.7]], flat = [[-2, 0.1], [2, 0.1]];
+  assert.deepEqual(gapBetween([floor(-0.1), floor(-0.2), floor(0.5)], [tooth], 1), { u: 0.01, wall: -0.1, tool: 0.2, isRight: true });
+  assert.equal(gapBetween([{ from: [1, 0], to: [-1, 0] }], [tooth], 1).isRight, false);
   assert.equal(gapBetween([floor(0.5)], [tooth], 1), null, 'no wall below');
   assert.equal(gapBetween([floor(-0.1)], [tooth.map(([u, v]) => [u + 0.9, v])], 1), null, 'no tool near the middle');
-  const line = [[-2, 0.1], [2, 0.1]];
-  assert.equal(gapBetween([floor(0)], [line], 1).tool, 0.1);
+  const ridge = [{ from: [-0.5, -0.4], to: [-0.03, 0] }, { from: [-0.03, 0], to: [0.5, -0.4] }];
+  assert.deepEqual(gapBetween(ridge, [flat], 1), { u: -0.03, wall: 0, tool: 0.1, isRight: true });
 });
 
 test('polygons and segments are clipped to what can be seen', () => {

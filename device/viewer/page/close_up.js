@@ -79,7 +79,7 @@ export class CloseUp {
     const wide = nearest ? nearest.tool - nearest.wall : gap ?? 0;
     const toPixels = ([u, v]) => [size[0] / 2 + u * scale, size[1] / 2 - v * scale];
     const pen = { context, ratio, field, reach, palette, toPixels };
-    drawObject(pen, walls, [0, Math.max(wide, leastGap) / 2]);
+    drawObject(pen, walls, { free: [0, Math.max(wide, leastGap) / 2], isRight: nearest?.isRight });
     for (const polygon of tools) drawPiece(pen, polygon);
     if (nearest && gap !== null) drawGap(pen, wide);
     this.drawScale(field, height);
@@ -105,8 +105,12 @@ function trace({ context, toPixels }, polygon, closes = true) {
   if (closes) context.closePath();
 }
 
-/** The side of a closed surface on which the tool is not, or a skin on the far side of an open one. @param free  a point between wall and tool */
-function drawObject(pen, segments, free) {
+/**
+ * The side of a closed surface on which the tool is not, or a skin on the far side of an open one.
+ * @param free     a point between wall and tool
+ * @param isRight  whether the far side is at the right of segments; undefined where there is no wall below the tool
+ */
+function drawObject(pen, segments, { free, isRight }) {
   const { context, ratio, field, reach, palette } = pen;
   const lines = segments.map(({ from, to }) => clippedSegment(from, to, reach)).filter((line) => line);
   const loops = loopsOf(segments);
@@ -117,7 +121,7 @@ function drawObject(pen, segments, free) {
     if (enclose(loops, free)) trace(pen, [[-reach, -reach], [reach, -reach], [reach, reach], [-reach, reach]]);
     context.fill('evenodd');
   } else {
-    for (const part of skinParts(segments, reach, skin * field)) trace(pen, part);
+    for (const part of skinParts(segments, reach, skin * field, isRight)) trace(pen, part);
     context.fill('nonzero');
   }
   context.beginPath();
@@ -128,24 +132,42 @@ function drawObject(pen, segments, free) {
   context.stroke();
 }
 
-/** Strips along segments on the side that a tool above is not at, and wedges between them where they meet. */
-function skinParts(segments, reach, depth) {
-  const parts = [], corners = new Map();
+/** Strips along the far side of segments: where two meet they are cut off at each other, or a wedge is between them. */
+function skinParts(segments, reach, depth, isRight) {
+  const strips = [], corners = new Map();
   for (const { from, to, ends } of segments) {
     const line = clippedSegment(from, to, reach);
     if (!line) continue;
-    const [a, b] = line, length = Math.hypot(b[0] - a[0], b[1] - a[1]) || 1;
-    const side = b[0] >= a[0] ? -depth / length : depth / length;  // downwards
-    const across = [-(b[1] - a[1]) * side, (b[0] - a[0]) * side];
-    const below = (p) => [p[0] + across[0], p[1] + across[1]];
-    parts.push([a, b, below(b), below(a)]);
-    [from, to].forEach((p, i) => {
-      const other = corners.get(ends[i]);
-      if (other) parts.push([p, below(p), other]);
-      corners.set(ends[i], below(p));
-    });
+    const way = [to[0] - from[0], to[1] - from[1]], length = Math.hypot(...way) || 1;
+    const side = (isRight ?? way[0] >= 0) ? -1 / length : 1 / length;  // by itself downwards
+    const far = [-way[1] * side, way[0] * side];  // a unit to the far side
+    const strip = { points: [from, to], far, part: [...line, ...line.toReversed().map((p) => [p[0] + depth * far[0], p[1] + depth * far[1]])] };
+    strips.push(strip);
+    ends.forEach((end, i) => corners.set(end, [...(corners.get(end) ?? []), { strip, at: i }]));
   }
-  return parts.map((part) => (turnsLeft(part) ? part : part.reverse()));  // all the same way round, so that none is cut out of another
+  const wedges = [];
+  for (const met of corners.values()) {
+    if (met.length !== 2) continue;
+    const [a, b] = met, p = a.strip.points[a.at];
+    const beyond = (one, other) => other.strip.points[1 - other.at].reduce((sum, v, k) => sum + (v - p[k]) * one.strip.far[k], 0);
+    if (beyond(a, b) > 0) {
+      const [cutA, cutB] = [cutOff(a.strip.part, p, b.strip.far), cutOff(b.strip.part, p, a.strip.far)];
+      [a.strip.part, b.strip.part] = [cutA, cutB];
+    } else {
+      wedges.push([p, ...[a, b].map(({ strip: { far } }) => [p[0] + depth * far[0], p[1] + depth * far[1]])]);
+    }
+  }
+  return [...strips.map(({ part }) => part), ...wedges].map((part) => (turnsLeft(part) ? part : part.reverse()));  // so that none is cut out of another
+}
+
+/** The part of a polygon on one side of a line. @param side  a normal towards it */
+function cutOff(polygon, [u, v], side) {
+  const height = (p) => (p[0] - u) * side[0] + (p[1] - v) * side[1];
+  return polygon.flatMap((p, i) => {
+    const q = polygon[(i + 1) % polygon.length], [a, b] = [height(p), height(q)];
+    const crossing = a >= 0 !== b >= 0 ? [p.map((x, k) => x + a / (a - b) * (q[k] - x))] : [];
+    return a >= 0 ? [p, ...crossing] : crossing;
+  });
 }
 
 function turnsLeft(polygon) {

@@ -147,26 +147,31 @@ export function clippedSegment(from, to, reach) {
   return [at(begin), at(end)];
 }
 
+/** Height of a line over u; null where it is upright, or not there. */
+function heightAt([from, to], u) {
+  if (Math.min(from[0], to[0]) > u || Math.max(from[0], to[0]) < u || from[0] === to[0]) return null;
+  return from[1] + (u - from[0]) / (to[0] - from[0]) * (to[1] - from[1]);
+}
+
 /**
- * The lowest place of a tool near the middle, and the wall below it: { u, wall, tool }; null where there is none within the field.
+ * The place near the middle where a tool is nearest above a wall: { u, wall, tool, isRight }; null where there is none within the field.
+ * isRight: whether what is below the wall is at the right of its segment, from head to tail.
  * @param walls  segments  @param tools  polygons
  */
 export function gapBetween(walls, tools, field) {
-  const strip = 0.1, reach = 0.5 * field;  // of the field, to each side
-  let tool = null;
-  for (const polygon of tools) {
-    polygon.forEach(([u, v], i) => {
-      const next = polygon[(i + 1) % polygon.length];
-      for (const end of clippedSegment([u / strip, v], [next[0] / strip, next[1]], reach) ?? []) if (!tool || end[1] < tool.v) tool = { u: end[0] * strip, v: end[1] };
-    });
+  const strip = 0.1 * field, reach = 0.5 * field;
+  const isNear = ([[u0], [u1]]) => Math.min(u0, u1) <= strip && Math.max(u0, u1) >= -strip;
+  const wallLines = walls.map(({ from, to }) => [from, to]).filter(isNear);
+  const toolLines = tools.flatMap((polygon) => polygon.map((p, i) => [p, polygon[(i + 1) % polygon.length]])).filter(isNear);
+  const places = [0, ...[...wallLines, ...toolLines].flat().map(([u]) => u).filter((u) => Math.abs(u) <= strip)];
+  let best = null;
+  for (const u of places) {
+    const tool = Math.min(...toolLines.map((line) => heightAt(line, u) ?? Infinity));
+    for (const line of wallLines) {
+      const wall = heightAt(line, u);
+      if (wall === null || wall > tool + leastGap || !(tool - wall < Math.min(reach, best ? best.tool - best.wall : Infinity))) continue;
+      best = { u, wall, tool, isRight: line[1][0] > line[0][0] };
+    }
   }
-  if (!tool) return null;
-  let wall = -Infinity;
-  for (const { from, to } of walls) {
-    const [low, high] = from[0] < to[0] ? [from, to] : [to, from];
-    if (low[0] > tool.u || high[0] < tool.u) continue;
-    const share = high[0] > low[0] ? (tool.u - low[0]) / (high[0] - low[0]) : 0, v = low[1] + share * (high[1] - low[1]);
-    if (v <= tool.v + leastGap && v > wall) wall = v;
-  }
-  return tool.v - wall < reach ? { u: tool.u, wall, tool: tool.v } : null;
+  return best;
 }
