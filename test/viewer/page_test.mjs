@@ -102,11 +102,11 @@ const tests = {
     await page.waitForTimeout(400);
     await page.keyboard.up('d');
     await nobodyMoves(page);
-    await page.waitForTimeout(300);
-    const after = await frame(page);
-    assert.ok(Math.hypot(...after.haptic.map((v, i) => v - before.haptic[i])) > 5e-4);
-    const later = await frame(page);
-    assert.ok(Math.hypot(...after.haptic.map((v, i) => v - later.haptic[i])) < 1e-4);
+    await page.waitForFunction((p) => Math.hypot(...feeler.timeline.latest.haptic.position.map((v, i) => v - p[i])) > 5e-4, before.haptic);
+    await page.waitForFunction(() => {  // it comes to rest, and so stays for a quarter of a second of the loop
+      const { frames, latest } = feeler.timeline, past = feeler.timeline.frameAt(latest.time - 0.25);
+      return frames.length > 2 && Math.hypot(...latest.haptic.position.map((v, i) => v - past.haptic.position[i])) < 1e-4;
+    });
   },
 
   async a_finger_drags_the_tool_and_two_turn_it(page) {
