@@ -7,7 +7,6 @@ uniform vec3 inner;
 varying vec3 front;
 varying vec3 back;
 varying vec3 place;
-varying float facing;
 
 float shade(vec3 n, float sky) {
   return 0.30 + 0.16 * sky + 0.56 * max(dot(n, vec3(0.222, 0.400, 0.889)), 0.0);  // the lamp is above the eye, a little to the right
@@ -17,10 +16,10 @@ void main() {
   vec3 n = normalize(normalMatrix * normal);
   float sky = (modelMatrix * vec4(normal, 0.0)).z;
   front = colour * shade(n, sky);
-  back = inner * shade(-n, -sky);
   place = (modelMatrix * vec4(position, 1.0)).xyz;
   vec4 seen = modelViewMatrix * vec4(position, 1.0);
-  facing = dot(n, -normalize(seen.xyz));
+  // A smooth ridge has triangles that just face away: as the far side they would be specks.
+  back = dot(n, normalize(seen.xyz)) < 0.15 ? front : inner * shade(-n, -sky);
   gl_Position = projectionMatrix * seen;
 }`;
 
@@ -30,12 +29,10 @@ uniform vec4 cut;
 varying vec3 front;
 varying vec3 back;
 varying vec3 place;
-varying float facing;
 
 void main() {
   if (dot(cut.xyz, place) > cut.w) discard;
-  bool isFront = gl_FrontFacing || facing > -0.15;  // a smooth ridge has triangles that just face away, and would be speckled
-  gl_FragColor = vec4(isFront ? front : back, opacity);
+  gl_FragColor = vec4(gl_FrontFacing ? front : back, opacity);
   #include <colorspace_fragment>
 }`;
 
