@@ -43,7 +43,7 @@ void validate(const Options& options) {
   const bool is_shown_only =
       options.scene && (*options.scene == "spline" || *options.scene == "shaft" || *options.scene == "peg" || *options.scene == "tunnel");
   require(options.views || !is_shown_only, "The scene " + options.scene.value_or("") + " has no report: see it with --view.");
-  require(!options.views || options.device == "simulated", "--view shows the simulated device: leave --device out.");
+  require(!options.views || options.replay.empty() || options.device == "simulated", "--replay plays what was recorded: leave --device out.");
   require(!options.views || !(options.record || options.out), "--view writes no report: leave --record and --out out.");
   require(options.views || options.replay.size() < 2, "--replay takes two files with --view only.");
   const bool has_file = options.object || options.tool || options.start;
@@ -117,6 +117,7 @@ CommandLine read_command_line(int argument_count, const char* const* arguments) 
     throw BadInput(std::string(error.what()) + ": see feeler-demo --help.");
   }
   options.is_clearance_given = app.count("--clearance") > 0;
+  options.are_triangles_given = app.count("--triangles") > 0;
   if (app.count("--seconds") > 0) options.view_seconds = options.seconds;
   if (!start.empty()) options.start = Vector3<double>(start[0], start[1], start[2]);
   if (options.object && !options.scene) options.scene = "file";

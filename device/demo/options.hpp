@@ -22,6 +22,7 @@ struct Options {
   double clearance = 1e-3;                      ///< of the cavity [m]
   bool is_clearance_given = false;              ///< by the user
   int triangles = 10082;                        ///< of the terrain, about
+  bool are_triangles_given = false;             ///< by the user
   double rate = 1000.0;                         ///< of the servo loop [Hz]
   double seconds = 8.0;                         ///< a scene
   std::uint32_t seed = 1;                       ///< of everything random

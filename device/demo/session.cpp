@@ -13,12 +13,12 @@
 
 #include "bad_input.hpp"
 #include "feeler/device/conversion.hpp"
-#include "feeler/device/device_catalogue.hpp"
 #include "feeler/device/latest_value.hpp"
 #include "feeler/device/servo_loop.hpp"
 #include "feeler/device/workspace_map.hpp"
 #include "feeler/object/triangle_mesh.hpp"
 #include "feeler/render/unit_warning.hpp"
+#include "real_device.hpp"
 #include "scenes/renderers.hpp"
 
 namespace feeler::demo {
@@ -48,40 +48,6 @@ class InterruptGuard {
   void (*previous_)(int);
 };
 
-/// The real device that was asked for, open; nothing where none answers and a simulated one may take its
-/// place.
-std::unique_ptr<Device> open_real_device(const SessionSettings& settings) {
-  std::string problems;
-  for (const Maker maker : all_makers) {
-    if (settings.device != "auto" && settings.device != name_of(maker)) continue;
-    DeviceChoice choice = settings.choice;
-    choice.period = 1.0 / settings.rate;
-    auto device = make_device(maker, choice);
-    const OpenResult opened = device->open();
-    if (opened) return device;
-    if (settings.device != "auto") throw BadInput(opened.problem);
-    std::printf("  note: %s\n", opened.problem.c_str());
-  }
-  if (settings.device == "auto") std::printf("  note: no device answers, so a simulated one is used.\n");
-  return nullptr;
-}
-
-/// The rates that the device accepts.
-void check_rate(const DeviceSpecification& device, double rate) {
-  if (rate >= device.minimum_rate && rate <= device.maximum_rate) return;
-  throw BadInput("The " + device.name + " runs at " + std::to_string(int(device.minimum_rate)) + " to " + std::to_string(int(device.maximum_rate)) +
-                 " Hz: give such a --rate.");
-}
-
-/// How much of the scene's stiffness the device renders without buzzing.
-double renderable_share(const Stiffness<double>& wanted, const DeviceSpecification& device, const WorkspaceMap& map) {
-  double share = std::min(1.0, map.scene_stiffness(device.stiffness) / wanted.translational.maxCoeff());
-  if (device.pushes_torque()) {
-    share = std::min(share, map.scene_rotational_stiffness(device.rotational_stiffness) / wanted.rotational.maxCoeff());
-  }
-  return share;
-}
-
 /// Prints what the loop hands over, until the loop ends.
 void watch(ServoLoop& loop, LatestValue<Snapshot>& latest, const ProgressSink& report) {
   auto last_time = SteadyClock::now();
@@ -108,7 +74,7 @@ void watch(ServoLoop& loop, LatestValue<Snapshot>& latest, const ProgressSink& r
 template <class Tool>
 Recording run(const scenes::Scene& scene, const Tool& tool, const SessionSettings& settings, const ProgressSink& report) {
   SimulatedPhantom phantom([&](double t) { return to_device_pose(scene.motion(t)); }, device_settings(settings));
-  const std::unique_ptr<Device> real_device = settings.device == "simulated" ? nullptr : open_real_device(settings);
+  const std::unique_ptr<Device> real_device = open_real_device(settings.device, settings.choice);
   Device& device = real_device ? *real_device : phantom;
   if (const OpenResult opened = device.open(); !opened) throw std::runtime_error(opened.problem);
 
@@ -119,15 +85,12 @@ Recording run(const scenes::Scene& scene, const Tool& tool, const SessionSetting
   Settings<double> renderer_settings = scene.settings();
   if (real_device) {
     check_rate(recording.device, settings.rate);
-    workspace.scale = settings.workspace_scale;
-    workspace.clutch_buttons = 1;
-  }
-  WorkspaceMap map(workspace);
-  if (real_device) {
-    recording.stiffness_share = renderable_share(renderer_settings.stiffness, recording.device, map);
+    workspace = real_workspace(settings.workspace_scale);
+    recording.stiffness_share = renderable_share(renderer_settings.stiffness, recording.device, WorkspaceMap(workspace));
     renderer_settings.stiffness.translational *= recording.stiffness_share;
     renderer_settings.stiffness.rotational *= recording.stiffness_share;
   }
+  WorkspaceMap map(workspace);
 
   const TriangleMesh<double> object(scene.vertices, scene.triangles);
   if (const std::string warning = unit_warning(object, tool); !warning.empty()) std::printf("  note: %s\n", warning.c_str());

@@ -133,6 +133,7 @@ refuses 'session that is none' 'no recording' --replay tetrahedron.off
 refuses 'view with a report' 'no report' --view
 refuses 'port without a view' 'view' --port 4280
 refuses 'scene that is only seen' 'view' --scene spline
+refuses 'recording on a device' 'leave --device out' --view --replay a.feeler --device openhaptics
 refuses 'two sessions' 'view' --replay a.feeler b.feeler
 refuses 'file for another scene' 'scene' --scene cavity --object tetrahedron.off
 

@@ -36,6 +36,11 @@ for pair in openhaptics:open_haptics forcedimension:force_dimension virtuose:vir
   "$demo" --replay "$device/session.feeler" >output.txt 2>error.txt || fail "$device: the replay differs: $(cat output.txt error.txt)"
   grep -q '200 ticks.*same to the last bit' output.txt || fail "$device: the replay says $(cat output.txt)"
 
+  # The same device as the hand of the live view; the program may be built without it.
+  "$demo" --view --port 0 --seconds 0.2 --device "$device" --device-library "$library.so" >output.txt 2>error.txt ||
+    grep -q 'built without' error.txt || fail "$device: the live view ends with exit code $?: $(cat error.txt)"
+  grep -q 'ticks: 200' output.txt || grep -q 'built without' error.txt || fail "$device: of its live view it says $(cat output.txt)"
+
   "$demo" --scene cavity --device "$device" --device-library "${library}_of_an_older_version.so" --out old >output.txt 2>error.txt
   [ $? -eq 2 ] || fail "$device: an older library is no bad input"
   grep -q 'has no function' error.txt || fail "$device: of an older library it says $(cat error.txt)"

@@ -2,8 +2,10 @@
 // usage: node --test modules_test.mjs
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
+import { clipped, clippedSegment, cutMesh, cutPiece, cuttingPlane, enclose, gapBetween, loopsOf, placed } from '../../device/viewer/page/cross_section.js';
 import { contactTypes, countTypes, withUnit } from '../../device/viewer/page/format.js';
 import { readSticks } from '../../device/viewer/page/gamepad.js';
+import { families, palettes } from '../../device/viewer/page/palette.js';
 import { readFrameAt, readMessage, sampleColumns, sampleWords } from '../../device/viewer/page/protocol.js';
 import { readRecording, writeRecording } from '../../device/viewer/page/recording.js';
 import { csvOf } from '../../device/viewer/page/save.js';
@@ -112,4 +114,91 @@ test('sticks at rest ask for nothing, and full ones for everything', () => {
   const full = readSticks({ axes: [1, -1, 0, 1], buttons: [0, 0, 0, 0, 0, 0, 0, 1].map((value) => ({ value })) });
   assert.deepEqual(full.way, [1, 1, 1]);
   assert.deepEqual(full.turn, [1, 0, 0]);
+});
+
+/** The cube from −1 to 1 about a centre; its triangles wind round outward normals, or inward ones. */
+function cube({ centre = [0, 0, 0], isRoom = false, without = 0 } = {}) {
+  const positions = [];
+  for (let i = 0; i < 8; ++i) positions.push(i & 1 ? 1 : -1, i & 2 ? 1 : -1, i & 4 ? 1 : -1);
+  const faces = [[0, 2, 3, 1], [4, 5, 7, 6], [0, 1, 5, 4], [2, 6, 7, 3], [0, 4, 6, 2], [1, 3, 7, 5]].slice(without);
+  const indices = faces.flatMap(([a, b, c, d]) => (isRoom ? [a, c, b, a, d, c] : [a, b, c, a, c, d]));
+  return { centre, positions: Float32Array.from(positions), indices: Uint32Array.from(indices), faces };
+}
+const across = (height) => cuttingPlane([0, 0, height], [1, 0, 0], [0, 1, 0]);
+const near = (a, b) => a.forEach((v, i) => assert.ok(Math.abs(v - b[i]) < 1e-9, `${a} is not ${b}`));
+
+function area(polygon) {
+  return Math.abs(polygon.reduce((sum, [u, v], i) => sum + u * polygon[(i + 1) % polygon.length][1] - v * polygon[(i + 1) % polygon.length][0], 0)) / 2;
+}
+
+test('the cut of a closed surface is a loop, and encloses what is inside', () => {
+  for (const isRoom of [false, true]) {
+    const square = loopsOf(cutMesh(cube({ isRoom }), across(0.3)));
+    assert.equal(square.length, 1);
+    assert.equal(area(square[0]), 4);
+    assert.ok(square[0].every(([u, v]) => Math.max(Math.abs(u), Math.abs(v)) === 1));
+    assert.deepEqual([[0, 0], [0.999, -0.999], [1.001, 0], [0, -2]].map((p) => enclose(square, p)), [true, true, false, false]);
+    assert.equal(enclose([...square, square[0].map(([u, v]) => [u / 2, v / 2])], [0.1, 0.2]), false, 'a hole');
+  }
+  assert.deepEqual(cutMesh(cube(), across(1.5)), []);
+});
+
+test('a cut is where the centre of its mesh says, to a nanometre at a metre', () => {
+  const segments = cutMesh(cube({ centre: [1e-9, 0, 5] }), cuttingPlane([-1, 0, 5.25], [1, 0, 0], [0, 1, 0]));
+  const left = Math.min(...segments.map(({ from }) => from[0]));
+  assert.ok(Math.abs(left - 1e-9) < 1e-15);
+});
+
+test('an open surface has a cut without loops', () => {
+  const segments = cutMesh(cube({ without: 5 }), across(0.3));
+  assert.equal(segments.length, 2);
+  assert.equal(loopsOf(segments), null);
+});
+
+test('the cut of a tool is a polygon round its middle, at its pose', () => {
+  const { positions, faces } = cube();
+  const vertices = Array.from({ length: 8 }, (_, i) => [...positions.subarray(3 * i, 3 * i + 3)]);
+  const turned = { position: [0, 0, 5], quaternion: [0, 0, Math.SQRT1_2, Math.SQRT1_2] };
+  const polygon = cutPiece({ vertices, faces }, turned, across(5.5), 1e-3);
+  assert.equal(polygon.length, 4);
+  assert.ok(Math.abs(area(polygon) - 4) < 1e-12);
+  near(placed(turned, [1, 0, 0]), [0, 1, 5]);
+  const edge = { vertices: [[0, 0, 0], [1, 0, 0]], faces: [[0, 1]] };
+  assert.equal(cutPiece(edge, { position: [0, 0, 5], quaternion: [0, 0, 0, 1] }, across(5), 1e-3).length, 2);
+  near(cutPiece(edge, { position: [0, 0, 5], quaternion: [0, -Math.SQRT1_2, 0, Math.SQRT1_2] }, across(5.5), 1e-3)[0], [0, 0]);
+});
+
+test('a gap is where the tool is nearest above the wall', () => {
+  const floor = (v) => ({ from: [-1, v], to: [1, v] });
+  const tooth = [[0.01, 0.2], [0.5, 0.7], [-0.5, 0.7]], flat = [[-2, 0.1], [2, 0.1]];
+  assert.deepEqual(gapBetween([floor(-0.1), floor(-0.2), floor(0.5)], [tooth], 1), { u: 0.01, wall: -0.1, tool: 0.2, isRight: true });
+  assert.equal(gapBetween([{ from: [1, 0], to: [-1, 0] }], [tooth], 1).isRight, false);
+  assert.equal(gapBetween([floor(0.5)], [tooth], 1), null, 'no wall below');
+  assert.equal(gapBetween([floor(-0.1)], [tooth.map(([u, v]) => [u + 0.9, v])], 1), null, 'no tool near the middle');
+  const ridge = [{ from: [-0.5, -0.4], to: [-0.03, 0] }, { from: [-0.03, 0], to: [0.5, -0.4] }];
+  assert.deepEqual(gapBetween(ridge, [flat], 1), { u: -0.03, wall: 0, tool: 0.1, isRight: true });
+});
+
+test('polygons and segments are clipped to what can be seen', () => {
+  assert.equal(area(clipped([[-5, -5], [5, -5], [5, 5], [-5, 5]], 1)), 4);
+  assert.equal(area(clipped([[0, 0], [5, 0], [5, 5], [0, 5]], 1)), 1);
+  assert.deepEqual(clipped([[2, 2], [3, 2], [3, 3]], 1), []);
+  assert.deepEqual(clippedSegment([-4, 0.5], [4, 0.5], 1), [[-1, 0.5], [1, 0.5]]);
+  assert.equal(clippedSegment([-4, 2], [4, 2], 1), null);
+  assert.equal(clippedSegment([2, 0], [4, 0], 1), null);
+});
+
+test('colours differ from what they are drawn on: by 4.5 as words and by 3 as lines', () => {
+  const channel = (v) => (v / 255 <= 0.04045 ? v / 255 / 12.92 : ((v / 255 + 0.055) / 1.055) ** 2.4);
+  const luminance = (hex) => [0.2126, 0.7152, 0.0722].reduce((sum, share, i) => sum + share * channel(parseInt(hex.slice(1 + 2 * i, 3 + 2 * i), 16)), 0);
+  const contrast = (a, b) => (Math.max(luminance(a), luminance(b)) + 0.05) / (Math.min(luminance(a), luminance(b)) + 0.05);
+  assert.ok(Math.abs(contrast('#000000', '#ffffff') - 21) < 1e-9);
+  for (const palette of Object.values(palettes)) {
+    for (const name of ['ink', 'faint']) assert.ok(contrast(palette[name], palette.card) >= 4.5, name);
+    for (const colour of [...palette.series, palette.other]) assert.ok(contrast(colour, palette.card) >= 3, colour);
+    for (const name of ['haptic', 'graphicEdge', 'force', 'torque', 'spring', 'trace', 'hapticTrace', 'edges']) {
+      assert.ok(contrast(palette[name], palette.background) >= 3, name);
+    }
+    for (const colour of Object.values(families)) assert.ok(Math.min(contrast(colour, palette.card), contrast(colour, palette.background)) >= 3, colour);
+  }
 });

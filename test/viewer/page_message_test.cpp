@@ -24,13 +24,14 @@ BOOST_AUTO_TEST_CASE(a_hand_is_read_and_its_quaternion_made_unit) {
 }
 
 BOOST_AUTO_TEST_CASE(a_scene_is_read_with_what_it_says_and_no_more) {
-  const auto parsed = parse_page_message(R"({"type":"scene","scene":"cavity","clearance":1e-5,"method":"paper"})");
+  const auto parsed = parse_page_message(R"({"type":"scene","scene":"cavity","clearance":1e-5,"tool":"needle","method":"paper"})");
   BOOST_REQUIRE(parsed.message.has_value());
   const auto& scene = std::get<SceneRequest>(*parsed.message);
   BOOST_TEST(scene.scene == "cavity");
   BOOST_TEST(scene.clearance.value() == 1e-5);
   BOOST_TEST(!scene.stiffness.has_value());
   BOOST_TEST(scene.method == "paper");
+  BOOST_TEST(scene.tool == "needle");
   BOOST_TEST(scene.scalar.empty());
 }
 

@@ -1,45 +1,17 @@
 // The live view as a user meets it, in headless Chromium.
-// usage: node page_test.mjs feeler-demo scratch-folder modules-folder chromium
+// usage: node page_test.mjs feeler-demo scratch-folder modules-folder chromium [folder-of-stand-ins]
 import assert from 'node:assert/strict';
 import { spawn } from 'node:child_process';
-import { mkdirSync, readFileSync, rmSync } from 'node:fs';
+import { existsSync, mkdirSync, readFileSync, rmSync } from 'node:fs';
 import { createServer } from 'node:net';
-import { join } from 'node:path';
+import { dirname, join } from 'node:path';
 import { pathToFileURL } from 'node:url';
+import { LiveDemo, startBrowser, until } from './live_demo.mjs';
 
-const [demo, scratch, modules, chromiumPath] = process.argv.slice(2);
-const { chromium } = (await import(pathToFileURL(join(modules, 'playwright-core', 'index.mjs')))).default ??
-  (await import(pathToFileURL(join(modules, 'playwright-core', 'index.mjs'))));
+const [demo, scratch, modules, chromiumPath, standIns = join(dirname(demo), '../../test/device/stand_in')] = process.argv.slice(2);
 rmSync(scratch, { recursive: true, force: true });
 mkdirSync(scratch, { recursive: true });
-
-/** A running feeler-demo. */
-class Demo {
-  static async start(...options) {
-    const demoRun = new Demo();
-    demoRun.child = spawn(demo, ['--view', ...options], { stdio: ['ignore', 'pipe', 'pipe'], env: { ...process.env, DISPLAY: undefined, WAYLAND_DISPLAY: undefined } });
-    demoRun.output = '';
-    demoRun.errors = '';
-    demoRun.child.stdout.on('data', (text) => (demoRun.output += text));
-    demoRun.child.stderr.on('data', (text) => (demoRun.errors += text));
-    demoRun.ended = new Promise((resolve) => demoRun.child.on('exit', resolve));
-    await until(() => /https?:\S+/.test(demoRun.output) || demoRun.child.exitCode !== null, 'the address');
-    demoRun.url = demoRun.output.match(/http:\S+/)?.[0];
-    return demoRun;
-  }
-  async stop() {
-    this.child.kill('SIGINT');
-    return this.ended;
-  }
-}
-
-async function until(condition, what, milliseconds = 30000) {
-  const end = Date.now() + milliseconds;
-  while (!(await condition())) {
-    if (Date.now() > end) throw new Error(`waited in vain for ${what}`);
-    await new Promise((resolve) => setTimeout(resolve, 50));
-  }
-}
+const startDemo = (...options) => LiveDemo.start(demo, '--view', ...options);
 
 async function freePort() {
   const server = createServer().listen(0, '127.0.0.1');
@@ -49,10 +21,7 @@ async function freePort() {
   return port;
 }
 
-const browser = await chromium.launch({
-  executablePath: chromiumPath,
-  args: ['--no-sandbox', '--use-angle=swiftshader', '--enable-unsafe-swiftshader', '--ignore-gpu-blocklist', '--disable-dev-shm-usage'],
-});
+const browser = await startBrowser(modules, chromiumPath);
 const complaints = [];
 
 async function open(url, options = {}) {
@@ -128,16 +97,45 @@ const tests = {
 
   async keys_move_the_hand_and_stop_when_they_are_let_go(page) {
     const before = await frame(page);
-    await page.focus('#first canvas');
+    await page.focus('#first canvas[tabindex]');
     await page.keyboard.down('d');
     await page.waitForTimeout(400);
     await page.keyboard.up('d');
     await nobodyMoves(page);
-    await page.waitForTimeout(300);
-    const after = await frame(page);
-    assert.ok(Math.hypot(...after.haptic.map((v, i) => v - before.haptic[i])) > 5e-4);
-    const later = await frame(page);
-    assert.ok(Math.hypot(...after.haptic.map((v, i) => v - later.haptic[i])) < 1e-4);
+    await page.waitForFunction((p) => Math.hypot(...feeler.timeline.latest.haptic.position.map((v, i) => v - p[i])) > 5e-4, before.haptic);
+    await page.waitForFunction(() => {  // it comes to rest, and so stays for a quarter of a second of the loop
+      const { frames, latest } = feeler.timeline, past = feeler.timeline.frameAt(latest.time - 0.25);
+      return frames.length > 2 && Math.hypot(...latest.haptic.position.map((v, i) => v - past.haptic.position[i])) < 1e-4;
+    });
+  },
+
+  async a_finger_drags_the_tool_and_two_turn_it(page) {
+    await choose(page, 'cavity');
+    const cdp = await page.context().newCDPSession(page);
+    const touch = (type, ...points) => cdp.send('Input.dispatchTouchEvent', { type, touchPoints: points.map(([x, y], id) => ({ x, y, id })) });
+    const before = await page.evaluate(() => feeler.timeline.latest.haptic);
+    const at = await seen(page, before.position);
+    await touch('touchStart', [at.x, at.y]);
+    for (let i = 1; i <= 10; ++i) await touch('touchMove', [at.x + 6 * i, at.y]);
+    await page.waitForFunction((p) => Math.hypot(...feeler.timeline.latest.haptic.position.map((v, k) => v - p[k])) > 1e-3, before.position);
+    const there = [at.x + 60, at.y];
+    await touch('touchStart', there, [there[0] + 80, there[1]]);
+    for (let i = 1; i <= 10; ++i) await touch('touchMove', there, [there[0] + 80 * Math.cos(i / 20), there[1] + 80 * Math.sin(i / 20)]);
+    await page.waitForFunction((q) => Math.abs(feeler.timeline.latest.haptic.quaternion.reduce((sum, v, k) => sum + v * q[k], 0)) < 0.995, before.quaternion);
+    await touch('touchEnd');
+    await nobodyMoves(page);
+  },
+
+  async the_stick_of_a_game_controller_moves_the_hand(page) {
+    await choose(page, 'cavity');
+    const { haptic } = await frame(page);
+    await page.evaluate(() => {
+      window.stick = { axes: [0.6, 0, 0, 0], buttons: [] };
+      navigator.getGamepads = () => [window.stick];
+      dispatchEvent(new Event('gamepadconnected'));
+    });
+    await page.waitForFunction((p) => Math.hypot(...feeler.timeline.latest.haptic.position.map((v, k) => v - p[k])) > 1e-3, haptic);
+    await page.evaluate(() => (navigator.getGamepads = () => []));
   },
 
   async every_scene_shows_its_motion(page) {
@@ -160,6 +158,8 @@ const tests = {
     await page.waitForFunction((stage) => feeler.stage.stage > stage && feeler.stage.variant === 'cavity 10 µm', before);
     await page.selectOption('#settings select[name=margin]', '1e-7');
     await page.waitForFunction(() => feeler.stage.margin === 1e-7);
+    await page.selectOption('#settings select[name=tool]', 'pebble');
+    await page.waitForFunction(() => feeler.stage.tool_kind === 'pebble' && feeler.stage.tool[0].vertices.length > 8);
     await page.selectOption('#settings select[name=scalar]', 'float');
     await page.waitForFunction(() => feeler.stage.scalar === 'float');
     await page.evaluate(() => feeler.source.send({ type: 'scene', scene: 'moon' }));
@@ -226,27 +226,78 @@ const tests = {
     assert.ok(reached.size >= count - 2, `${reached.size} of ${count}`);
   },
 
+  async the_view_turns_and_zooms_by_keys(page) {
+    const eye = () => page.evaluate(() => feeler.view.camera.position.clone().sub(feeler.view.controls.target).toArray());
+    await page.focus('#first canvas[tabindex]');
+    await page.keyboard.press('Home');
+    const before = await eye();
+    await page.keyboard.press('l');
+    const turned = await eye();
+    await page.keyboard.press('+');
+    const nearer = await eye();
+    assert.ok(Math.abs(Math.hypot(...turned) / Math.hypot(...before) - 1) < 1e-6 && Math.hypot(...turned.map((v, k) => v - before[k])) > 0.05 * Math.hypot(...before));
+    assert.ok(Math.hypot(...nearer) < 0.95 * Math.hypot(...turned));
+    await page.keyboard.press('Home');
+    assert.ok(Math.hypot(...(await eye()).map((v, k) => v - before[k])) < 1e-6 * Math.hypot(...before));
+  },
+
+  async the_clearance_view_shows_the_cut_of_the_tightest_place(page) {
+    await choose(page, 'shaft');
+    await page.check('#look [name=magnify]');
+    await page.click('#show');
+    await page.waitForFunction(() => feeler.view.closeUp.place?.gap > 0);
+    await page.click('#still');
+    const shares = await page.evaluate(async () => {
+      await new Promise((resolve) => setTimeout(resolve, 500));
+      const { canvas } = feeler.view.closeUp, { object, graphic } = feeler.view.palette;
+      const pixels = canvas.getContext('2d').getImageData(0, 0, canvas.width, canvas.height).data;
+      const share = (hex) => {
+        const wanted = [1, 3, 5].map((i) => parseInt(hex.slice(i, i + 2), 16));
+        let count = 0;
+        for (let i = 0; i < pixels.length; i += 4) count += wanted.every((v, k) => pixels[i + k] === v) ? 1 : 0;
+        return 4 * count / pixels.length;
+      };
+      return [share(object), share(graphic)];
+    });
+    assert.ok(Math.min(...shares) > 0.1, `wall and tool fill ${shares.map((v) => (100 * v).toFixed(0))} % of it`);
+    assert.match(await page.textContent('.close-up .caption'), /gap .*m/);
+    await page.uncheck('#look [name=magnify]');
+  },
+
+  async nothing_moves_by_style(page) {
+    assert.equal(await page.evaluate(() => document.getAnimations().length), 0);
+    assert.ok(await page.evaluate(() => [...document.querySelectorAll('*')].every((node) => getComputedStyle(node).transitionDuration.split(', ').every((t) => t === '0s'))));
+  },
+
   async words_have_contrast_in_both_themes(page) {
     for (const theme of ['light', 'dark']) {
       await page.evaluate((name) => feeler.setTheme(name), theme);
       const worst = await page.evaluate(() => {
         const channel = (v) => (v /= 255) <= 0.03928 ? v / 12.92 : ((v + 0.055) / 1.055) ** 2.4;
-        const luminance = (text) => {
-          const [r, g, b] = text.match(/[\d.]+/g).map(Number);
-          return 0.2126 * channel(r) + 0.7152 * channel(g) + 0.0722 * channel(b);
+        const parsed = (text) => {  // red, green, blue of 255, and opacity
+          if (/^#/.test(text)) return [1, 3, 5].map((i) => parseInt(text.slice(i, i + 2), 16)).concat(1);
+          const numbers = text.match(/[\d.]+/g).map(Number);
+          return [...numbers.slice(0, 3).map((v) => (text.startsWith('color(') ? 255 * v : v)), numbers[3] ?? 1];
         };
-        const groundOf = (node) => {
+        const luminance = ([r, g, b]) => 0.2126 * channel(r) + 0.7152 * channel(g) + 0.0722 * channel(b);
+        const over = ([r, g, b, a], ground) => [r, g, b].map((v, k) => a * v + (1 - a) * ground[k]);
+        const object = parsed(feeler.view.palette.object), shades = [object, object.map((v) => 0.3 * v)];  // what may be seen through
+        const groundsOf = (node) => {
+          const layers = [];
           for (; node; node = node.parentElement) {
-            const colour = getComputedStyle(node).backgroundColor;
-            if (!/, 0\)$/.test(colour)) return colour;
+            const colour = parsed(getComputedStyle(node).backgroundColor);
+            if (colour[3] > 0) layers.unshift(colour);
+            if (colour[3] === 1) break;
           }
-          return 'rgb(255, 255, 255)';
+          const ground = layers.shift();
+          return [ground, ...(layers.length > 0 ? shades : [])].map((g) => layers.reduce((below, layer) => over(layer, below), g));
         };
-        const nodes = [...document.querySelectorAll('button, label, p, h2, small, output, dt, dd, figcaption span')].filter((n) => n.offsetParent && n.textContent.trim() && !n.disabled);
-        const ratios = nodes.map((node) => {
-          const [a, b] = [luminance(getComputedStyle(node).color), luminance(groundOf(node))].sort((x, y) => y - x);
+        const nodes = [...document.querySelectorAll('button, label, p, h2, small, output, dt, dd, figcaption span, .legend span, .labels span, .caption, .scale')]
+          .filter((n) => n.offsetParent && n.textContent.trim() && !n.disabled);
+        const ratios = nodes.flatMap((node) => groundsOf(node).map((ground) => {
+          const [a, b] = [luminance(parsed(getComputedStyle(node).color)), luminance(ground)].sort((x, y) => y - x);
           return { ratio: (a + 0.05) / (b + 0.05), text: node.textContent.slice(0, 40) };
-        });
+        }));
         return ratios.reduce((x, y) => (y.ratio < x.ratio ? y : x));
       });
       assert.ok(worst.ratio >= 4.5, `${theme}: ${worst.ratio.toFixed(2)} at "${worst.text}"`);
@@ -267,7 +318,7 @@ async function run(name, body) {
   }
 }
 
-const live = await Demo.start('--scene', 'cavity', '--port', '0');
+const live = await startDemo('--scene', 'cavity', '--port', '0');
 let page;
 try {
   await run('the_page_loads_within_seconds_and_without_a_complaint', async () => { page = await open(live.url); });
@@ -301,18 +352,48 @@ try {
 
 await run('a_lost_connection_is_told_and_comes_back', async () => {
   const port = String(await freePort());
-  let server = await Demo.start('--scene', 'cavity', '--port', port);
+  let server = await startDemo('--scene', 'cavity', '--port', port);
   const page = await open(server.url);
   await server.stop();
   await page.waitForFunction(() => /lost/.test(document.getElementById('connection').textContent));
-  server = await Demo.start('--scene', 'steps', '--port', port);
+  server = await startDemo('--scene', 'steps', '--port', port);
   await page.waitForFunction(() => document.getElementById('connection').className === 'open' && feeler.stage.scene === 'steps', null, { timeout: 20000 });
-  const second = await Demo.start('--port', port);
+  const second = await startDemo('--port', port);
   assert.equal(await second.ended, 2);
   assert.match(second.errors, /cannot be had/);
   await server.stop();
   await page.context().close();
   complaints.length = 0;  // the browser notes each attempt
+});
+
+await run('a_real_device_is_the_hand_and_the_page_only_looks', async () => {
+  const library = join(standIns, 'libforce_dimension_stand_in.so');
+  if (!existsSync(library)) return console.log(`skipped: there is no ${library}`);
+  const server = await startDemo('--scene', 'cavity', '--port', '0', '--device', 'forcedimension', '--device-library', library);
+  const page = await open(server.url);
+  assert.equal((await frame(page)).mode, 'device');
+  assert.match(await page.textContent('#sentence'), /You hold the .*handle/);
+  assert.ok(!(await page.isVisible('#show')) && !(await page.isVisible('#still')));
+  const { haptic, graphic } = await frame(page);
+  assert.ok(Math.hypot(...haptic) < 1e-9 && Math.hypot(...graphic) < 1e-6, 'it begins at the start, wherever the handle is');
+  const at = await seen(page, haptic);
+  await page.mouse.move(at.x, at.y);
+  await page.mouse.down();
+  await page.mouse.move(at.x, at.y - 100, { steps: 5 });
+  await page.mouse.up();
+  await page.evaluate(() => feeler.source.playMotion());
+  await page.waitForFunction(() => /so no page moves it/.test(document.getElementById('sentence').textContent));
+  await page.waitForTimeout(200);
+  assert.deepEqual((await frame(page)).haptic, haptic);
+  await choose(page, 'spline');
+  assert.equal((await frame(page)).mode, 'device');
+  assert.ok((await page.evaluate(() => feeler.stage.stiffness)) > 0);
+  await page.context().close();
+  assert.equal(await server.stop(), 0);
+  assert.match(server.output, /missed deadlines/);
+  const missing = await startDemo('--port', '0', '--device', 'virtuose', '--device-library', '/nowhere.so');
+  assert.equal(await missing.ended, 2);
+  assert.equal(missing.errors.trim().split('\n').length, 1);
 });
 
 await run('a_report_plays_without_a_server_and_two_are_compared', async () => {
@@ -333,7 +414,7 @@ await run('a_report_plays_without_a_server_and_two_are_compared', async () => {
   await player.waitForFunction(() => feeler.player.cursor > 0.2);
   await context.close();
 
-  const replay = await Demo.start('--replay', reports[0].out, reports[1].out, '--port', '0');
+  const replay = await startDemo('--replay', reports[0].out, reports[1].out, '--port', '0');
   const page = await open(replay.url);
   assert.equal(await page.evaluate(() => feeler.recordings.length), 2);
   await page.evaluate(() => feeler.player.seek(0.5));

@@ -3,11 +3,14 @@
 #include <boost/test/unit_test.hpp>
 
 #include <atomic>
+#include <cmath>
 #include <memory>
 #include <thread>
+#include <utility>
 
 #include "live/stage.hpp"
 #include "live/stage_switch.hpp"
+#include "live/tool_choice.hpp"
 #include "scenes/cavity.hpp"
 #include "scenes/spline.hpp"
 #include "support/allocation_count.hpp"
@@ -121,6 +124,26 @@ BOOST_AUTO_TEST_CASE(every_scalar_and_method_renders_and_what_there_is_not_is_re
   const auto settings = spline.setting.settings();
   BOOST_CHECK_THROW(make_stage({1, spline, settings, {"paper", "double"}, 1e-3}), std::invalid_argument);
   BOOST_CHECK_THROW(make_stage({1, feeler::demo::live(feeler::scenes::cavity(-1e-3)), settings, {}, 1e-3}), std::invalid_argument);
+}
+
+BOOST_AUTO_TEST_CASE(another_tool_stops_at_the_wall_that_is_as_far_as_it_is_small) {
+  for (const auto& [kind, half_height] : {std::pair("own", 0.01), {"cube", 0.005}, {"needle", 0.005 * std::sqrt(3.0)}, {"pebble", 0.0}}) {
+    feeler::demo::LiveScene scene = feeler::demo::live(feeler::scenes::cavity());  // 30 mm high
+    const double pressed = 0.018 - half_height;  // not so hard that a needle tips over
+    feeler::demo::choose_tool(scene, kind);
+    const auto settings = scene.setting.settings();
+    LiveFeed feed;
+    StageSwitch stages{std::shared_ptr<Stage>(make_stage({1, std::move(scene), settings, {}, 1e-3}))};
+    StagedDevice device(stages, feed);
+    feed.ask({HandMode::person, 1, {{0.0, 0.0, pressed}, {1, 0, 0, 0}}});
+    for (int i = 0; i < 400; ++i) tick(device, feed, i);
+    Snapshot snapshot;
+    BOOST_REQUIRE(feed.fetch(snapshot));
+    BOOST_TEST(snapshot.wrench.force[2] < -0.1, kind);
+    if (half_height > 0) BOOST_TEST(std::abs(snapshot.graphic.position[2] - (0.015 - half_height)) < 1e-4, kind);
+  }
+  feeler::demo::LiveScene scene = feeler::demo::live(feeler::scenes::cavity());
+  BOOST_CHECK_THROW(feeler::demo::choose_tool(scene, "spoon"), std::invalid_argument);
 }
 
 BOOST_AUTO_TEST_SUITE_END()

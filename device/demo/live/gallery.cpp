@@ -50,6 +50,17 @@ void add_catalogue(std::vector<GalleryEntry>& list) {
   }
 }
 
+/// The terrain of the user's own count of triangles, before those of the catalogue.
+void put_own_terrain_first(std::vector<GalleryEntry>& list, const Options& options) {
+  Options of_terrain = options;
+  of_terrain.scene = "terrain";
+  for (GalleryEntry& entry : list) {
+    if (entry.id != "terrain") continue;
+    const auto make = [of_terrain] { return live(std::move(choose_scenes(of_terrain).front().scene)); };
+    entry.variants.insert(entry.variants.begin(), {"about " + std::to_string(options.triangles) + " triangles", make});
+  }
+}
+
 void add_shafts(std::vector<GalleryEntry>& list) {
   GalleryEntry entry{
       "shaft", "Shaft in its bore", "Push the shaft aside until it touches, then turn it about its axis: all its walls are near at once.", {}, {}};
@@ -106,6 +117,7 @@ std::vector<GalleryEntry> gallery(const Options& options) {
   std::vector<GalleryEntry> list;
   if (options.object) list.push_back(file_entry(options));
   add_catalogue(list);
+  if (options.are_triangles_given) put_own_terrain_first(list, options);
   if (!options.object) list.push_back(file_entry(options));
   add_shafts(list);
   add_pegs(list);

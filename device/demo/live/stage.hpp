@@ -27,7 +27,8 @@ struct StageParts {
   LiveScene scene;
   Settings<double> settings;
   RenderChoice choice;
-  double period = 1e-3;  ///< of a tick [s]
+  double period = 1e-3;            ///< of a tick [s]
+  bool is_on_real_device = false;  ///< which moves the tool instead of the simulated hand
 };
 
 /// A scene with all that one tick of it takes. Built outside the servo loop, then handed to it; `read` and
@@ -54,7 +55,7 @@ class Stage {
 
  protected:
   const TriangleMesh<double>& object() const noexcept { return *object_; }
-  viewer::HandMode mode() const noexcept { return guide_.mode(); }
+  viewer::HandMode mode() const noexcept { return parts_.is_on_real_device ? viewer::HandMode::device : guide_.mode(); }
   std::int64_t missed_ = 0;
 
  private:

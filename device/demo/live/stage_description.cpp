@@ -5,6 +5,7 @@
 
 #include "feeler/core/version.hpp"
 #include "feeler/viewer/wire.hpp"
+#include "live/tool_choice.hpp"
 
 namespace feeler::demo {
 namespace {
@@ -32,7 +33,7 @@ ordered_json choice_json(const char* id, const char* label) { return {{"id", id}
 
 }  // namespace
 
-std::string hello_text(const std::vector<GalleryEntry>& gallery, double rate) {
+std::string hello_text(const std::vector<GalleryEntry>& gallery, double rate, const std::string& device) {
   ordered_json entries = ordered_json::array();
   for (const GalleryEntry& entry : gallery) {
     ordered_json variants = ordered_json::array();
@@ -40,11 +41,15 @@ std::string hello_text(const std::vector<GalleryEntry>& gallery, double rate) {
     entries.push_back(
         {{"id", entry.id}, {"title", entry.title}, {"hint", entry.hint}, {"variants", variants}, {"clearance", bool(entry.with_clearance)}});
   }
+  ordered_json tools = ordered_json::array();
+  for (const ToolKind& kind : tool_kinds) tools.push_back(choice_json(kind.id, kind.label));
   return ordered_json{{"type", "hello"},
                       {"version", FEELER_VERSION},
                       {"wire", viewer::wire_version},
                       {"rate", rate},
+                      {"device", device.empty() ? ordered_json(nullptr) : ordered_json(device)},
                       {"gallery", entries},
+                      {"tools", tools},
                       {"methods", {choice_json("closest", "closest features"), choice_json("paper", "the paper's, unverified")}},
                       {"scalars", {choice_json("double", "double"), choice_json("float", "float")}}}
       .dump();
@@ -68,6 +73,7 @@ std::string stage_text(int number, const LiveScene& scene, const StageSettings& 
                       {"stiffness", settings.stiffness.translational.x()},
                       {"rotational_stiffness", settings.stiffness.rotational.x()},
                       {"margin", settings.margin},
+                      {"tool_kind", origin.tool},
                       {"method", choice.method},
                       {"scalar", choice.scalar},
                       {"tip", list_of(setting.tip)},

@@ -17,6 +17,7 @@ struct StageOrigin {
   std::string hint;                      ///< what to try
   std::string variant;                   ///< its label
   std::optional<double> clearance = {};  ///< chosen by hand [m]
+  std::string tool = "own";              ///< an id of `tool_kinds`
 };
 
 /// How a stage is rendered, for those who read of it.
@@ -26,7 +27,8 @@ struct StageSettings {
 };
 
 /// The first text of a page: version, gallery, and what can be chosen.
-std::string hello_text(const std::vector<GalleryEntry>& gallery, double rate);
+/// @param device  name of a real one that is the hand; empty where the page is
+std::string hello_text(const std::vector<GalleryEntry>& gallery, double rate, const std::string& device);
 /// A stage: its scene, settings and tool.
 std::string stage_text(int number, const LiveScene& scene, const StageSettings& settings, const StageOrigin& origin);
 /// One sentence for the user; `type` is note or refusal.

@@ -16,9 +16,11 @@ void main() {
   vec3 n = normalize(normalMatrix * normal);
   float sky = (modelMatrix * vec4(normal, 0.0)).z;
   front = colour * shade(n, sky);
-  back = inner * shade(-n, -sky);
   place = (modelMatrix * vec4(position, 1.0)).xyz;
-  gl_Position = projectionMatrix * modelViewMatrix * vec4(position, 1.0);
+  vec4 seen = modelViewMatrix * vec4(position, 1.0);
+  // A smooth ridge has triangles that just face away: as the far side they would be specks.
+  back = dot(n, normalize(seen.xyz)) < 0.15 ? front : inner * shade(-n, -sky);
+  gl_Position = projectionMatrix * seen;
 }`;
 
 const fragmentShader = `

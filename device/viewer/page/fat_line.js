@@ -42,20 +42,25 @@ export function setLineColour(material, colour) {
   material.uniforms.colour.value.set(colour);
 }
 
-/** Separate segments: [x, y, z, x, y, z, …], six numbers each. */
-function segmentsGeometry(points) {
-  const count = points.length / 6;
-  const position = new Float32Array(12 * count), other = new Float32Array(12 * count), side = new Float32Array(4 * count);
-  const index = new Uint32Array(6 * count);
+/** Room for separate segments: four corners each. */
+function roomForSegments(count) {
+  const attribute = (size) => new BufferAttribute(new Float32Array(4 * size * count), size);
+  const side = attribute(1), index = new Uint32Array(6 * count);
   for (let i = 0; i < count; ++i) {
-    const a = points.slice(6 * i, 6 * i + 3), b = points.slice(6 * i + 3, 6 * i + 6);
-    [a, a, b, b].forEach((p, k) => position.set(p, 12 * i + 3 * k));
-    [b, b, a, a].forEach((p, k) => other.set(p, 12 * i + 3 * k));
-    side.set([1, -1, -1, 1], 4 * i);
-    index.set([0, 1, 2, 2, 1, 3].map((v) => 4 * i + v), 6 * i);
+    side.array.set([1, -1, -1, 1], 4 * i);
+    index.set([4 * i, 4 * i + 1, 4 * i + 2, 4 * i + 2, 4 * i + 1, 4 * i + 3], 6 * i);
   }
-  return new BufferGeometry().setAttribute('position', new BufferAttribute(position, 3)).setAttribute('other', new BufferAttribute(other, 3))
-    .setAttribute('side', new BufferAttribute(side, 1)).setIndex(new BufferAttribute(index, 1));
+  return new BufferGeometry().setAttribute('position', attribute(3)).setAttribute('other', attribute(3)).setAttribute('side', side)
+    .setIndex(new BufferAttribute(index, 1));
+}
+
+/** Writes segment i from one point of a list to another; a and b are where they begin in it. */
+function writeSegment({ attributes: { position, other } }, i, points, a, b) {
+  for (let k = 0; k < 3; ++k) {
+    const at = 12 * i + k, from = points[a + k], to = points[b + k];
+    position.array[at] = position.array[at + 3] = other.array[at + 6] = other.array[at + 9] = from;
+    other.array[at] = other.array[at + 3] = position.array[at + 6] = position.array[at + 9] = to;
+  }
 }
 
 class FatMesh extends Mesh {
@@ -68,24 +73,33 @@ class FatMesh extends Mesh {
   }
 }
 
+/** Separate segments: [x, y, z, x, y, z, …], six numbers each. */
 export function fatSegments(points, material) {
-  return new FatMesh(segmentsGeometry(Array.from(points)), material);
+  const count = Math.floor(points.length / 6), geometry = roomForSegments(count);
+  for (let i = 0; i < count; ++i) writeSegment(geometry, i, points, 6 * i, 6 * i + 3);
+  return new FatMesh(geometry, material);
 }
 
-/** One line through points that change. */
+/** One line through points that change: its room grows, and is kept. */
 export class FatLine extends FatMesh {
   constructor(material) {
-    super(new BufferGeometry(), material);
+    super(roomForSegments(32), material);
     this.frustumCulled = false;
     this.visible = false;
+    this.points = [];
   }
 
   setPoints(points) {
-    this.visible = points.length >= 6;
+    this.points = points;
+    const count = Math.floor(points.length / 3) - 1;
+    this.visible = count > 0;
     if (!this.visible) return;
-    const segments = [];
-    for (let i = 0; i + 6 <= points.length; i += 3) segments.push(...points.slice(i, i + 6));
-    this.geometry.dispose();
-    this.geometry = segmentsGeometry(segments);
+    if (12 * count > this.geometry.attributes.position.array.length) {
+      this.geometry.dispose();
+      this.geometry = roomForSegments(2 * count);
+    }
+    for (let i = 0; i < count; ++i) writeSegment(this.geometry, i, points, 3 * i, 3 * i + 3);
+    this.geometry.attributes.position.needsUpdate = this.geometry.attributes.other.needsUpdate = true;
+    this.geometry.setDrawRange(0, 6 * count);
   }
 }

@@ -11,6 +11,7 @@ export class HeldPose {
     this.view = view;
     this.source = source;
     this.pose = null;
+    this.isElsewhere = false;  // the hand is at a real device: here it only can be looked at
   }
 
   get isHeld() {
@@ -18,7 +19,7 @@ export class HeldPose {
   }
   /** From where the tool of the hand is now. */
   grab() {
-    if (this.pose || !this.view.frame) return;
+    if (this.pose || !this.view.frame || this.isElsewhere) return;
     const { position, quaternion } = this.view.frame.haptic;
     this.pose = { position: new Vector3(...position), quaternion: new Quaternion().fromArray(quaternion) };
   }
@@ -69,6 +70,7 @@ export class PointerHand {
   }
 
   isOnTool({ clientX, clientY }) {
+    if (this.held.isElsewhere) return false;
     const box = this.canvas.getBoundingClientRect();
     const at = new Vector2((clientX - box.left) / box.width * 2 - 1, 1 - (clientY - box.top) / box.height * 2);
     const ray = new Raycaster();

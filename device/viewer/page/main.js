@@ -16,6 +16,7 @@ import { traceSeconds } from './trace.js';
 
 const $ = (id) => document.getElementById(id);
 const stripPeriod = 120, slowStripPeriod = 300;  // between drawings of the strips, and where pixels are slow [ms]
+const restAfter = 500;     // without a new picture [ms]
 const fadingPeriod = 0.25;  // between pictures in which nothing but the trace changes [s]
 
 class Page {
@@ -26,7 +27,7 @@ class Page {
     this.recordings = [];
     this.isDirty = true;
     this.lastStrips = 0;
-    this.frameStamps = [];
+    this.lastPicture = 0;
     this.setTheme(localStorageValue('theme') ?? (matchMedia('(prefers-color-scheme: dark)').matches ? 'dark' : 'light'));
     this.listen();
     requestAnimationFrame(() => this.draw());
@@ -46,7 +47,7 @@ class Page {
     $('open-recording').onchange = (event) => this.openFiles([...event.target.files]);
     $('window').onchange = (event) => {
       this.strips.window = Number(event.target.value);
-      this.lastStrips = 0;
+      this.askForStrips();
     };
     this.strips.onPick = (time) => this.player.pauseAt(time);
     addEventListener('dragover', (event) => event.preventDefault());
@@ -67,7 +68,7 @@ class Page {
     document.documentElement.dataset.theme = name;
     keepLocally('theme', name);
     for (const pane of this.panes) pane.view.setTheme(name);
-    this.lastStrips = 0;
+    this.askForStrips();
     this.isDirty = true;
   }
 
@@ -83,7 +84,7 @@ class Page {
     const elements = Object.fromEntries(['pause', 'live', 'back', 'forth', 'clock', 'speed'].map((id) => [id, $(id)]));
     this.player = new Player(this.timeline, { ...elements, slider: $('time') }, isReplay);
     this.player.onChange = () => {
-      this.lastStrips = 0;
+      this.areStripsOld = true;
       this.showMoment();
     };
   }
@@ -96,27 +97,32 @@ class Page {
       hello: (hello) => this.hello(hello), stage: (stage) => this.setStage(stage), mesh: (mesh) => this.setMesh(mesh),
       frame: (frame) => this.addFrame(frame), sentence: (_, text) => this.say(text), connection: (state) => this.showConnection(state),
     });
-    const held = new HeldPose(this.view, this.source);
-    const pointer = new PointerHand(held);
-    this.hands = [pointer, new KeyboardHand(held, this.view.canvas), new GamepadHand(held)];
+    this.held = new HeldPose(this.view, this.source);
+    const pointer = new PointerHand(this.held);
+    this.hands = [pointer, new KeyboardHand(this.held, this.view.canvas), new GamepadHand(this.held)];
     $('finger-turns').onclick = () => {
       pointer.turns = !pointer.turns;
       $('finger-turns').setAttribute('aria-pressed', String(pointer.turns));
     };
     $('show').onclick = () => this.source.playMotion();
     $('still').onclick = () => this.source.stopHand();
-    this.invite();
   }
 
-  /** What to do first, until it is done. */
-  invite() {
-    this.say('Drag the tool against a wall, with the mouse, a finger or the arrow keys; ? tells every way.', true);
+  /** What to do first, until it is done. @param device  the name of a real one that is the hand, or null */
+  invite(device) {
+    if (this.isInvited) return;
+    this.isInvited = true;
+    this.say(device ? `You hold the ${device}: press the tool against a wall with its handle; while its first button is down the handle moves alone.`
+      : 'Drag the tool against a wall, with the mouse, a finger or the arrow keys; ? tells every way.', true);
     this.view.canvas.addEventListener('pointerdown', () => this.say(''), { once: true });
     this.view.canvas.addEventListener('keydown', () => this.say(''), { once: true });
   }
 
   hello(hello) {
     this.greeting = hello;
+    this.held.isElsewhere = hello.device !== null;
+    document.body.classList.toggle('on-device', hello.device !== null);
+    this.invite(hello.device);
     this.timeline.restart(hello.rate);
     showGallery($('gallery'), hello.gallery, (request) => this.choose(request));
   }
@@ -248,25 +254,34 @@ class Page {
   }
 
   showMoment() {
-    this.panes[0].show(this.player.frameIndex);
+    const isMoving = this.player.isLive || this.player.rate !== 0;
+    this.panes[0].show(this.player.frameIndex, isMoving);
     const second = this.panes[1];
-    if (second && !$('second').hidden) second.show(second.timeline.frameIndexAt(this.player.cursor));
+    if (second && !$('second').hidden) second.show(second.timeline.frameIndexAt(this.player.cursor), isMoving);
   }
 
   draw() {
+    requestAnimationFrame(() => this.draw());  // first: a picture that fails is not the last one
     this.player?.advance();
     if (this.isDirty) {
       this.isDirty = false;
       for (const pane of this.panes) if (!pane.section.hidden) pane.draw();
-      this.frameStamps.push(performance.now());
-      if (this.frameStamps.length > 120) this.frameStamps.shift();
+      this.lastPicture = performance.now();
+    } else if (performance.now() - this.lastPicture > restAfter) {
+      for (const pane of this.panes) if (!pane.section.hidden) pane.view.drawAtRest();
     }
     const now = performance.now();
-    if (this.player && now - this.lastStrips > (this.view.isSlow ? slowStripPeriod : stripPeriod) && (this.player.isLive || this.lastStrips === 0)) {
+    if (this.player && now - this.lastStrips > (this.view.isSlow ? slowStripPeriod : stripPeriod) && (this.player.isLive || this.areStripsOld)) {
       this.lastStrips = now;
+      this.areStripsOld = false;
       this.drawStrips();
     }
-    requestAnimationFrame(() => this.draw());
+  }
+
+  /** At once, for what changes seldom. */
+  askForStrips() {
+    this.lastStrips = 0;
+    this.areStripsOld = true;
   }
 
   drawStrips() {
@@ -282,10 +297,10 @@ class Page {
     return `feeler-${this.stage?.scene ?? 'view'}.${ending}`;
   }
   async savePicture() {
-    this.panes[0].draw();
+    this.view.render(true);
     const canvases = [...document.querySelectorAll('#strips canvas')];
     const palette = palettes[this.theme];
-    download(this.fileName('png'), await pngOf(this.view.canvas, canvases, palette, `${this.stage.title} · ${this.panes[0].parts.meta.textContent}`));
+    download(this.fileName('png'), await pngOf(this.view, canvases, palette, `${this.stage.title} · ${this.panes[0].parts.meta.textContent}`));
   }
   saveRecording() {
     const mesh = this.meshBuffer ?? this.recordings[0]?.mesh.buffer;

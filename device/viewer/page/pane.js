@@ -1,9 +1,11 @@
 // One picture with its words: a stage, its frames, and what is written over it.
 import { Vector3 } from 'three';
 import { countTypes, degrees, norm, withUnit } from './format.js';
+import { KeyboardEye } from './keyboard_eye.js';
 import { turnBetween } from './pose.js';
 import { StageView } from './stage_view.js';
 
+const wordPeriod = 100;  // nobody reads faster, and drawing words is slow where there is no graphics processor [ms]
 const axes = { x: [1, 0, 0], y: [0, 1, 0], z: [0, 0, 1] };
 
 /** Writes rows of a name and a value, and touches only what has changed. */
@@ -21,6 +23,7 @@ export class Pane {
     this.timeline = timeline;
     this.parts = Object.fromEntries([...section.querySelectorAll('[data-part]')].map((part) => [part.dataset.part, part]));
     this.view = new StageView(this.parts);
+    this.eye = new KeyboardEye(this.view);
     this.lastWritten = 0;
   }
 
@@ -34,18 +37,16 @@ export class Pane {
       `${variant} · ${stage.triangles.toLocaleString('en')} triangles · ${stage.stiffness} N/m · margin ${withUnit(stage.margin, 'm')} · ${stage.method}, ${stage.scalar}`;
   }
 
-  show(index) {
+  /** @param isLive  whether the next moment will follow at once */
+  show(index, isLive = false) {
     const frame = this.timeline.frames[index];
     if (!frame) return;
     this.view.showFrame(frame, this.timeline.frames, index);
-    this.write(frame);
+    if (!isLive || performance.now() - this.lastWritten >= wordPeriod) this.write(frame);
   }
 
-  /** In words, ten times a second: nobody reads faster, and drawing words is slow where there is no graphics processor. */
   write(frame) {
-    const now = performance.now();
-    if (this.timeline.isGrowing && now - this.lastWritten < 100) return;
-    this.lastWritten = now;
+    this.lastWritten = performance.now();
     const apart = Math.hypot(...frame.haptic.position.map((v, k) => v - frame.graphic.position[k]));
     const types = countTypes(frame.contacts).map(([{ short }, count]) => (count > 1 ? `${count} ${short}` : short)).join(', ');
     const rows = [

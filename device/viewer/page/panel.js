@@ -50,6 +50,7 @@ export function showSettings(form, hello, stage, choose) {
   const variants = entry.variants.map((label) => [label, label]);
   if (entry.clearance) variants.push([ownClearance, 'a clearance of your own']);
   const fields = [element('legend', { textContent: 'Scene' })];
+  fields.push(select('Tool', 'tool', hello.tools.map(({ id, label }) => [id, label]), stage.tool_kind));
   if (variants.length > 1) fields.push(select('Which', 'variant', variants, hasOwn ? ownClearance : stage.variant));
   if (hasOwn) {
     fields.push(slider('Clearance', 'clearance', { min: -7, max: -2.5, step: 0.05, value: Math.log10(Math.max(stage.clearance, 1e-7)) }, (v) => withUnit(10 ** v, 'm')));
@@ -64,7 +65,7 @@ export function showSettings(form, hello, stage, choose) {
   form.replaceChildren(...[fields, render].filter((group) => group.length > 1).map((group) => element('fieldset', {}, ...group)));
   form.onchange = () => {
     const values = Object.fromEntries(new FormData(form));
-    const request = { scene: stage.scene, stiffness: Number(values.stiffness), margin: Number(values.margin), method: values.method, scalar: values.scalar };
+    const request = { scene: stage.scene, stiffness: Number(values.stiffness), margin: Number(values.margin), tool: values.tool, method: values.method, scalar: values.scalar };
     if (values.variant === ownClearance) request.clearance = values.clearance === undefined ? 1e-4 : 10 ** Number(values.clearance);
     else if (values.variant !== undefined) request.variant = values.variant;
     choose(request);

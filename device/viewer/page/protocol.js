@@ -13,7 +13,7 @@ export const sampleColumns = [
 export const sampleIndex = Object.fromEntries(sampleColumns.map((name, i) => [name, i]));
 export const flags = { converged: 1, folded: 2 };
 
-export const handModes = ['still', 'motion', 'person'];
+export const handModes = ['still', 'motion', 'person', 'device'];
 export const statuses = ['converged', 'unconverged', 'unverified', 'penetrating', 'not finite', 'not reset'];
 
 /** Seven numbers of the wire as a pose: position [m] and quaternion x, y, z, w as three.js has it. */

@@ -1,4 +1,4 @@
-// Recordings: a stage, its mesh and its frames in one JSON document. device/demo/live/view_recording.cpp writes the same.
+// Recordings: a stage, its mesh and its frames in one JSON document. device/demo/live/report_player.cpp writes the same.
 import { readFrameAt, readMessage, sampleWords } from './protocol.js';
 import { Timeline } from './timeline.js';
 

@@ -16,8 +16,8 @@ export function csvOf({ samples }) {
   return `${lines.join('\n')}\n`;
 }
 
-/** The picture with the strips below it. */
-export async function pngOf(sceneCanvas, stripCanvases, { background, ink }, title) {
+/** The picture with its clearance view, and the strips below it. @param view  that has just drawn all of it */
+export async function pngOf({ canvas: sceneCanvas, closeUp }, stripCanvases, { background, ink }, title) {
   const width = sceneCanvas.width, rowHeight = 90, titles = 18;
   const columns = 4, rows = Math.ceil(stripCanvases.length / columns);
   const canvas = document.createElement('canvas');
@@ -27,6 +27,8 @@ export async function pngOf(sceneCanvas, stripCanvases, { background, ink }, tit
   context.fillStyle = background;
   context.fillRect(0, 0, canvas.width, canvas.height);
   context.drawImage(sceneCanvas, 0, 0);
+  const { box } = closeUp, scale = width / sceneCanvas.clientWidth;
+  if (!box.hidden) context.drawImage(closeUp.canvas, box.offsetLeft * scale, box.offsetTop * scale, box.offsetWidth * scale, box.offsetHeight * scale);
   context.fillStyle = ink;
   context.font = '16px system-ui, "DejaVu Sans", sans-serif';
   context.fillText(title, 14, 26);

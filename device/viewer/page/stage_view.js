@@ -18,6 +18,7 @@ const longestArrow = 0.6;               // of the tool's size, beyond which an a
 const slowFrame = 30, fastFrame = 18;    // between two drawn one after the other [ms], at which fewer or more pixels are drawn
 const leastPixels = 0.6;
 const fewTriangles = 3000;               // of an object that is drawn anew each time
+const pixelsAtRest = 2, mostTrianglesAtRest = 3e5;  // of a picture that stays: smooth edges where no motion pays for them
 const longPause = 300;                   // after which a picture has not waited for the one before [ms]
 
 /** Whether this machine draws without a graphics processor: then smooth edges cost more than they show. */
@@ -50,12 +51,12 @@ export class StageView {
   constructor(elements) {
     this.canvas = elements.canvas;
     const isSlow = this.isSlow = drawsInSoftware();
-    this.renderer = new WebGLRenderer({ canvas: this.canvas, antialias: !isSlow });
+    this.renderer = new WebGLRenderer({ canvas: this.canvas, antialias: !isSlow, alpha: isSlow });
     this.renderer.autoClear = false;
     this.mostPixels = Math.min(devicePixelRatio, isSlow ? 1 : 2);
     this.pixels = this.mostPixels;
     this.lastDrawn = 0;
-    this.backdrop = isSlow ? new Backdrop() : null;
+    this.backdrop = isSlow ? new Backdrop(this.canvas) : null;
     this.scene = new Scene();
     this.camera = new PerspectiveCamera(35, 1, 0.001, 10);
     this.camera.up.set(0, 0, 1);
@@ -71,7 +72,7 @@ export class StageView {
     this.force = new Arrow('#000');
     this.torque = new Arrow('#000', { turns: true });
     this.contacts = new ContactsView(elements.labels);
-    this.trace = new Trace();
+    this.trace = new Trace(isSlow);
     this.arrows = new Group().add(this.force, this.torque);
     this.marks = new Group().add(this.spring, this.arrows, this.contacts, this.trace);
     this.scene.add(this.object, this.graphic, this.haptic, this.marks);
@@ -80,6 +81,8 @@ export class StageView {
     this.magnifies = false;
     this.frameTimes = [];
     this.framesDrawn = 0;
+    this.isAtRest = false;
+    this.firstPicture = null;  // when there was one of object and tool, since the page was asked for [ms]
     new ResizeObserver(() => this.resize()).observe(this.canvas.parentElement);
     this.setTheme('light');
   }
@@ -89,7 +92,8 @@ export class StageView {
 
   setStage(stage) {
     this.stage = stage;
-    this.frame = null;
+    this.frame = this.mesh = null;
+    this.closeUp.reset();
     this.haptic.setPieces(stage.tool);
     this.graphic.setPieces(stage.tool);
     this.size = 2 * this.graphic.radius;
@@ -99,6 +103,7 @@ export class StageView {
   }
 
   setMesh(mesh) {
+    this.mesh = mesh;
     this.object.setMesh(mesh);
     this.resetCamera();
     this.changed();
@@ -176,6 +181,7 @@ export class StageView {
   resize() {
     const { clientWidth, clientHeight } = this.canvas.parentElement;
     if (clientWidth === 0 || clientHeight === 0) return;
+    this.isAtRest = false;
     this.renderer.setPixelRatio(this.pixels);
     this.renderer.setSize(clientWidth, clientHeight, false);
     this.camera.aspect = clientWidth / clientHeight;
@@ -185,40 +191,60 @@ export class StageView {
   }
 
   draw() {
-    const { clientWidth, clientHeight } = this.canvas.parentElement;
-    this.renderer.setViewport(0, 0, clientWidth, clientHeight);
-    this.renderer.clear();
-    this.camera.updateMatrixWorld();
-    if (this.backdrop && this.object.look === 'solid' && this.object.triangleCount > fewTriangles) this.drawOverBackdrop();
-    else this.renderer.render(this.scene, this.camera);
-    this.contacts.placeLabels(this.camera, clientWidth, clientHeight, this.closeUp.box);
-    if (this.magnifies && this.frame) this.drawCloseUp();
-    ++this.framesDrawn;
+    if (this.isAtRest) this.renderer.setPixelRatio(this.pixels);
+    this.isAtRest = false;
+    this.render();
     this.adapt();
   }
 
-  drawOverBackdrop() {
-    const others = [this.graphic, this.haptic, this.marks];
-    const { object } = this;
-    for (const part of others) part.visible = false;
-    this.backdrop.draw(this.renderer, this.scene, this.camera, `${this.stage.stage} ${this.theme} ${object.cut.toArray()}`);
-    for (const part of others) part.visible = true;
-    const { background } = this.scene;
-    object.visible = false;
-    this.scene.background = null;
-    this.renderer.render(this.scene, this.camera);
-    this.scene.background = background;
-    object.visible = true;
+  /** Once more, when nothing has moved for a while: with smooth edges where moving pictures have none. */
+  drawAtRest() {
+    if (this.isAtRest || !this.isSlow || !this.mesh || this.object.triangleCount > mostTrianglesAtRest) return;
+    this.isAtRest = true;
+    this.renderer.setPixelRatio(pixelsAtRest);
+    this.render(true);
+  }
+
+  /** @param isWhole  whether all of it is to be in the canvas, as it must be to be saved */
+  render(isWhole = false) {
+    const { clientWidth, clientHeight } = this.canvas.parentElement;
+    this.renderer.setViewport(0, 0, clientWidth, clientHeight);
+    this.camera.updateMatrixWorld();
+    if (isWhole || !this.drawsOverBackdrop()) {
+      this.renderer.clear();
+      this.renderer.render(this.scene, this.camera);
+    }
+    this.contacts.placeLabels(this.camera, clientWidth, clientHeight, this.closeUp.box);
+    if (this.magnifies && this.frame) this.drawCloseUp();
+    ++this.framesDrawn;
+    if (this.mesh && this.frame) this.firstPicture ??= performance.now();
+  }
+
+  /** @return whether it has drawn: not where the object or the eye has just moved */
+  drawsOverBackdrop() {
+    const { backdrop, object, renderer, scene, camera } = this, { background } = scene;
+    if (!backdrop || object.look !== 'solid' || !(object.triangleCount > fewTriangles)) return false;
+    const draw = (...parts) => {
+      for (const part of scene.children) part.visible = parts.includes(part);
+      scene.background = parts.includes(object) ? background : null;
+      renderer.render(scene, camera);
+    };
+    const holds = backdrop.holds(renderer, camera, `${this.stage.stage} ${this.theme} ${object.cut.toArray()}`, () => draw(object));
+    if (holds) {
+      backdrop.draw(renderer, (cells) => {
+        for (const tool of [this.haptic, this.graphic]) cells.addSphere(camera, tool.position, tool.radius);
+        if (this.trace.visible) for (const line of this.trace.children) cells.addLine(camera, line.points);
+      });
+      draw(this.graphic, this.haptic, this.marks);
+    }
+    for (const part of scene.children) part.visible = true;
+    scene.background = background;
+    return holds;
   }
 
   drawCloseUp() {
-    this.closeUp.aim(this.frame, this.camera);
-    const hidden = [this.marks, this.haptic, this.object];
-    const were = hidden.map((part) => part.visible);
-    for (const part of hidden) part.visible = false;
-    this.closeUp.wall.material.color.set(this.palette.object);
-    this.closeUp.draw(this.renderer, this.scene, this.palette.background);
-    hidden.forEach((part, i) => (part.visible = were[i]));
+    this.closeUp.aim(this.frame, tipOf(this.frame.graphic, this.graphic.middle), this.camera);
+    this.closeUp.draw(this.mesh, this.stage.tool, this.frame.graphic, this.palette);
   }
 
   /** Fewer pixels where the machine draws them slowly. */

@@ -20,7 +20,7 @@ export const histograms = [
   { id: 'late-histogram', title: 'Ticks by lateness', of: column('late_us') },
 ];
 
-const eventColours = { switch: '#8250df', fold: '#d6409f', budget: '#e09f1f' };
+const eventColours = { switch: '#8250df', fold: '#d6409f', budget: '#b87400' };
 const decades = [0, 4];  // of a histogram: 1 µs to 10 ms
 const bins = 48;
 
@@ -133,9 +133,7 @@ export class Strips {
     const at = this.hover === null ? (isLive ? null : cursor) : this.timeAt(this.hover);
     if (at !== null) this.drawCursor(context, (at - this.begin) / (this.end - this.begin) * width, height, palette);
     setText(output, timelines.map(({ samples }) => this.read(samples, strip, at ?? this.end)).join(' · '));
-    context.fillStyle = palette.faint;
-    context.font = '10px system-ui, "DejaVu Sans", sans-serif';
-    context.fillText(strip.write(top / 1.08), 3, 10);
+    this.writeScale(context, strip.write(top / 1.08), palette);
   }
 
   read(ring, { of, write }, time) {
@@ -149,6 +147,17 @@ export class Strips {
     const step = this.window > 20 ? 10 : this.window > 4 ? 1 : 0.25;
     for (let t = Math.ceil(this.begin / step) * step; t < this.end; t += step) context.fillRect((t - this.begin) / this.window * width, 0, 1, height);
     context.fillRect(0, height - 1, width, 1);
+  }
+
+  /** Where the axis ends, on whatever lies there. */
+  writeScale(context, text, palette) {
+    context.font = '10px system-ui, "DejaVu Sans", sans-serif';
+    context.lineJoin = 'round';
+    context.lineWidth = 3;
+    context.strokeStyle = palette.card;
+    context.strokeText(text, 3, 10);
+    context.fillStyle = palette.faint;
+    context.fillText(text, 3, 10);
   }
 
   drawEvents(context, height, { events }) {

@@ -1,5 +1,5 @@
 // One of the two tools: red and translucent where the hand is, grey where the tool may be.
-import { Group, Mesh } from 'three';
+import { Box3, Group, Mesh, Vector3 } from 'three';
 import { clay } from './clay.js';
 import { fatMaterial, fatSegments, setLineColour } from './fat_line.js';
 import { toolGeometry } from './geometry.js';
@@ -22,6 +22,8 @@ export class ToolView extends Group {
     this.surface.renderOrder = edges.renderOrder = this.renderOrder;
     this.add(this.surface, edges);
     surface.computeBoundingSphere();
+    const box = new Box3().setFromPoints(pieces.flatMap((piece) => piece.vertices.map((v) => new Vector3(...v))));
+    this.middle = box.getCenter(new Vector3());
     this.radius = Math.max(...pieces.flatMap((piece) => piece.vertices.map((v) => Math.hypot(...v))));
   }
 

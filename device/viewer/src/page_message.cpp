@@ -73,6 +73,7 @@ SceneRequest scene_of(const json& message) {
   request.stiffness = setting_of(message, "stiffness", 10.0, 5000.0);
   request.margin = setting_of(message, "margin", 1e-8, 1e-4);
   request.variant = name_of(message, "variant");
+  request.tool = name_of(message, "tool");
   request.method = name_of(message, "method");
   request.scalar = name_of(message, "scalar");
   return request;

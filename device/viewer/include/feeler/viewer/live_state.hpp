@@ -38,6 +38,7 @@ enum class HandMode : std::int32_t {
   still,   ///< nobody: it stays where it is
   motion,  ///< the motion that belongs to the scene
   person,  ///< somebody at a page
+  device,  ///< somebody at a real device
 };
 
 /// The latest tick, as a picture shows it.

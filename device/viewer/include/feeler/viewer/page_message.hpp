@@ -17,6 +17,7 @@ struct SceneRequest {
   std::optional<double> stiffness;  ///< [N/m]
   std::optional<double> margin;     ///< [m]
   std::string variant;              ///< one of the scene's; empty for its first
+  std::string tool;                 ///< an id of the tools; empty for the scene's own
   std::string method;               ///< an id of the contact methods; empty for the first
   std::string scalar;               ///< "double" or "float"; empty for double
 };
