@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <limits>
 
 #include "feeler/core/status.hpp"
 #include "feeler/render/contact_method.hpp"
@@ -43,6 +44,9 @@ class ClosestFeaturesFollower {
     stage_ = Stage::starting;
     limits_.reset(scene.trust_radius());
   }
+
+  /// The metric has turned since the last tick: what was settled in the old one is not in the new one.
+  void metric_turned() noexcept { iteration_.aim.translation.setConstant(std::numeric_limits<Scalar>::quiet_NaN()); }
 
   TickStatus follow(const Scene& scene, const Pose<Scalar>& target, Tick<MeshScalar>& tick) noexcept {
     target_ = target;
@@ -486,7 +490,7 @@ class ClosestFeaturesFollower {
   /// Where a step goes back on the last one, each linearisation lacks what stopped the other: solves again with what stopped the last.
   bool reconcile(const Scene& scene, const Twist<Scalar>& off, Tick<MeshScalar>& tick) noexcept {
     const Twist<Scalar>& last_step = linearisation_.stopped();
-    const Metric<Scalar>& metric = scene.metric();
+    const TurnedMetric<Scalar>& metric = scene.metric();
     if (!(metric.product(solved_step(), last_step) < -metric.energy(last_step) / 2)) return false;
     if (!budget_.allows_solve(tick.work) || !linearisation_.keep_stops(scene)) return false;
     project_again(scene, off, false, tick);

@@ -136,7 +136,7 @@ class FreePoseSearch {
     Vector6<Scalar> row;
     row.template head<3>() = pose.rotation * closest.normal;
     row.template tail<3>() = (pose.rotation * Vector3<Scalar>(closest.tool_point - scene_.reference())).cross(row.template head<3>());
-    const Vector6<Scalar> motion = row.cwiseQuotient(scene_.metric().diagonal());
+    const Vector6<Scalar> motion = row.cwiseQuotient(scene_.metric().along().diagonal());
     return Twist<Scalar>::from_vector(motion * ((scene_.margin() - closest.distance) / row.dot(motion)));
   }
 

@@ -22,7 +22,7 @@ struct Settings {
   /// is to be felt, needs a `metric`: nothing else would draw the tool to the hand there.
   Stiffness<Scalar> stiffness = {};
 
-  /// M of the paper's eq. 3. Unset, it is proportional to K, and the wrench is the exact sum of the contact forces; another metric
+  /// M of the paper's eq. 3, along the same axes as K: those of the poses, or those that `update` is given. Unset, it is proportional to K, and the wrench is the exact sum of the contact forces; another metric
   /// bends the wrench out of the contact cone.
   std::optional<Metric<Scalar>> metric = {};
   Metric<Scalar> metric_in_use() const noexcept { return metric ? *metric : Metric<Scalar>::proportional_to(stiffness); }

@@ -14,7 +14,7 @@
 #include "feeler/render/sqp/definiteness.hpp"
 #include "feeler/render/sqp/elastic_rows.hpp"
 #include "feeler/render/sqp/last_forces.hpp"
-#include "feeler/spatial/metric.hpp"
+#include "feeler/spatial/turned_metric.hpp"
 
 namespace feeler {
 
@@ -110,10 +110,10 @@ class StepProblem {
   Scalar room_after(int k) const noexcept { return problem_.rows[index(k)].dot(solution_.step) - problem_.bounds[index(k)]; }
 
   /// The step that minimises f with its own Hessian: the way home, where no row holds.
-  const Vector6<Scalar>& project(const Metric<Scalar>& metric, const Twist<Scalar>& graphic_from_haptic, Scalar margin) noexcept {
+  const Vector6<Scalar>& project(const TurnedMetric<Scalar>& metric, const Twist<Scalar>& graphic_from_haptic, Scalar margin) noexcept {
     load_rows(margin);
-    if (metric.is_isotropic()) {
-      set_hessian(diagonal_of(metric.diagonal()));
+    if (!metric.is_turned() && metric.along().is_isotropic()) {
+      set_hessian(diagonal_of(metric.along().diagonal()));
     } else {
       problem_.hessian = metric.homing_hessian(graphic_from_haptic);
     }
@@ -126,10 +126,10 @@ class StepProblem {
     return solution_.step;
   }
   /// After `project`, or a near guess: where contacts hold, the step with the Hessian of the Lagrangian.
-  const Vector6<Scalar>& bend(const Metric<Scalar>& metric, const Twist<Scalar>& graphic_from_haptic) noexcept {
+  const Vector6<Scalar>& bend(const TurnedMetric<Scalar>& metric, const Twist<Scalar>& graphic_from_haptic) noexcept {
     if (is_free_) return solution_.step;
     projection_ = solution_;
-    set_lagrangian(metric, graphic_from_haptic);
+    set_any_lagrangian(metric, graphic_from_haptic);
     solve_elastic(WarmStart(projection_));
     // Without its rows the curvature they were given means nothing.
     if (solution_.active.empty()) solution_ = projection_;
@@ -144,11 +144,11 @@ class StepProblem {
     right,  ///< the step is what `bend` would find
   };
   /// Both at once, with the forces of the last step in place of those of a projection (sequential quadratic programming).
-  Guess bend_again(const Metric<Scalar>& metric, const Twist<Scalar>& graphic_from_haptic, Scalar margin) noexcept {
+  Guess bend_again(const TurnedMetric<Scalar>& metric, const Twist<Scalar>& graphic_from_haptic, Scalar margin) noexcept {
     if (last_forces_.empty() || !last_forces_.find(rows_, projection_.active)) return Guess::none;
     load_rows(margin);
     set_price(metric, graphic_from_haptic, margin);
-    set_lagrangian(metric, graphic_from_haptic);
+    set_any_lagrangian(metric, graphic_from_haptic);
     solve_elastic(WarmStart(projection_));
     if (solution_.active.empty() || is_relaxed()) return Guess::wrong;
     is_free_ = false;
@@ -164,9 +164,13 @@ class StepProblem {
   bool is_newton() const noexcept { return is_newton_; }
 
   /// The smallest step that meets the rows.
-  const Vector6<Scalar>& restore(const Metric<Scalar>& metric, Scalar margin) noexcept {
+  const Vector6<Scalar>& restore(const TurnedMetric<Scalar>& metric, Scalar margin) noexcept {
     load_rows(margin);
-    set_hessian(diagonal_of(metric.diagonal()));
+    if (metric.is_turned()) {
+      problem_.hessian = metric.matrix();
+    } else {
+      set_hessian(diagonal_of(metric.along().diagonal()));
+    }
     problem_.gradient.setZero();
     solve_elastic();
     return solution_.step;
@@ -207,7 +211,7 @@ class StepProblem {
   }
 
   /// Some times the force with which the hand pulls, as a translation of the tool; with next to no force still enough to win the margin back.
-  void set_price(const Metric<Scalar>& metric, const Twist<Scalar>& graphic_from_haptic, Scalar margin) noexcept {
+  void set_price(const TurnedMetric<Scalar>& metric, const Twist<Scalar>& graphic_from_haptic, Scalar margin) noexcept {
     using std::sqrt;
     price_ = price_per_force * (sqrt(2 * metric.energy(graphic_from_haptic)) + margin);
   }
@@ -229,12 +233,35 @@ class StepProblem {
   inline static const Scalar price_per_force = Scalar(24);
   inline static const Scalar picometre = Scalar(1e-12);  // some tolerances of a solver
 
+  void set_any_lagrangian(const TurnedMetric<Scalar>& metric, const Twist<Scalar>& e) noexcept {
+    if (metric.is_turned()) {
+      set_turned_lagrangian(metric, e);
+    } else {
+      set_lagrangian(metric.along(), e);
+    }
+  }
+  FEELER_FLATTEN void set_lagrangian(const Metric<Scalar>& metric, const Twist<Scalar>& e) noexcept {
+    const Vector6<Scalar> base = metric.diagonal();
+    // Not much flatter than the metric: a flatter one makes steps that no linearisation can carry.
+    const Vector6<Scalar> floor = base * (Scalar(1) / 80);
+    make_lagrangian(metric, e, diagonal_of(base), [](int i, int j) { return i == j; }, [&] { return is_positive_definite(problem_.hessian, floor); });
+  }
+  /// The same along other axes.
+  [[gnu::noinline]] void set_turned_lagrangian(const TurnedMetric<Scalar>& metric, const Twist<Scalar>& e) noexcept {
+    const Matrix6<Scalar> base = metric.matrix(), floor = base * (Scalar(1) / 80);
+    make_lagrangian(
+        metric, e, base, [](int i, int j) { return (i < 3) == (j < 3); },
+        [&] { return is_positive_definite<Scalar>(problem_.hessian - floor, Vector6<Scalar>::Zero()); });
+  }
+
   /// H = ∇²f − Σ λₖ ∇²sₖ with the forces of the projection, made positive definite where it matters least.
   ///
   /// Across the active rows the step is fixed, so ½ρ(Jₖd − bₖ)² added for each changes nothing along them (augmented Lagrangian). Where H
   /// has negative curvature along the rows too, the tool is about to slip off: there part of the metric takes its place.
-  FEELER_FLATTEN void set_lagrangian(const Metric<Scalar>& metric, const Twist<Scalar>& e) noexcept {
-    const Vector6<Scalar> base = metric.diagonal();
+  /// @param base         M; `has(i, j)` where it has an entry
+  /// @param is_definite  whether the Hessian of the problem is, by enough
+  template <class AnyMetric, class Base, class Has, class IsDefinite>
+  void make_lagrangian(const AnyMetric& metric, const Twist<Scalar>& e, const Base& base, const Has& has, const IsDefinite& is_definite) noexcept {
     problem_.gradient = metric.gradient(e);
     // Summed before it is subtracted: of contacts between faces much cancels, and does so to the last bit.
     Matrix6<Scalar> curvature;
@@ -242,14 +269,12 @@ class StepProblem {
     for (const auto& active : projection_.active) rows_[active.row].add_curvature(active.multiplier, curvature);
     const Matrix3<Scalar> turns = metric.hessian_of_turns(e);
     const auto lagrangian = [&](int i, int j) {
-      const Scalar hessian = j >= 3 ? turns(i - 3, j - 3) : i == j ? base[i] : Scalar(0);
+      const Scalar hessian = j >= 3 ? turns(i - 3, j - 3) : has(i, j) ? base(i, j) : Scalar(0);
       return hessian - curvature(i, j);
     };
-    // Not much flatter than the metric: a flatter one makes steps that no linearisation can carry.
-    const Vector6<Scalar> floor = base * (Scalar(1) / 80);
     is_newton_ = true;
     set_hessian(lagrangian);
-    if (is_positive_definite(problem_.hessian, floor)) return;
+    if (is_definite()) return;
 
     Matrix6<Scalar> across;
     set_lower(across, [](int, int) { return Scalar(0); });
@@ -263,15 +288,15 @@ class StepProblem {
       const Scalar weight = Scalar(regular.weight), share = Scalar(regular.share);
       const auto entry = [&](int i, int j) {
         const Scalar sum = share * lagrangian(i, j) + weight * across(i, j);
-        return i == j ? sum + (Scalar(1) - share) * base[i] : sum;
+        return has(i, j) ? sum + (Scalar(1) - share) * base(i, j) : sum;
       };
       set_hessian(entry);
-      if (!is_positive_definite(problem_.hessian, floor)) continue;
+      if (!is_definite()) continue;
       problem_.gradient -= weight * pull;
       is_newton_ = share == Scalar(1);
       return;
     }
-    set_hessian(diagonal_of(base));
+    set_hessian(base);
     is_newton_ = false;
   }
 
