@@ -35,6 +35,6 @@ ForceLimits limits_of(const DeviceSpecification& device, double period = 1e-3);
 
 /// Refuses (`std::invalid_argument`) limits outside their bounds, or above what the device can do, and a device that is said to do more than 10,000 N or
 /// N·m: an infinity limits nothing.
-void check(const ForceLimits& limits, const DeviceSpecification& device);
+void(check)(const ForceLimits& limits, const DeviceSpecification& device);  // a macro of engines
 
 }  // namespace feeler
