@@ -14,6 +14,7 @@
 #include "feeler/object/triangle_mesh.hpp"
 #include "feeler/qp/dual_active_set.hpp"
 #include "feeler/render/closest_features.hpp"
+#include "feeler/render/constraints/working_set.hpp"
 #include "feeler/render/contact_method.hpp"
 #include "feeler/render/motion_certificate.hpp"
 #include "feeler/render/rendered_scene.hpp"
@@ -196,9 +197,14 @@ void HapticRenderer<ToolType, Solver, Method>::turn_metric(const Quaternion<Work
 
 template <RigidTool ToolType, QpSolver Solver, ContactMethod<ToolType, Solver> Method>
 bool HapticRenderer<ToolType, Solver, Method>::is_free_at(const Pose<Working>& pose) noexcept {
+  constexpr int part = 4;  // of the work: one blocker will do, and of a hull of thousands of points each takes long
   int work = 0;
   state_->start.clear();
-  return state_->start.certify(scene_, pose, {}, work, (std::numeric_limits<int>::max)()).blockers.empty();
+  const WorkingSet<Working, 1> none;
+  auto result = state_->start.certify(scene_, pose, {}, work, part, none);
+  for (int limit = work + part; result.is_exhausted && result.blockers.empty(); limit = work + part)
+    result = state_->start.go_on(scene_, work, limit, none);
+  return result.blockers.empty();
 }
 
 /// Of a free pose. A piece that crosses no triangle is in a solid with all of it, or with none.
