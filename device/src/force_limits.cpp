@@ -15,6 +15,8 @@ void require(bool holds, const char* sentence) {
 // False for a NaN.
 bool is_within(double value, double low, double high) noexcept { return value >= low && value <= high; }
 
+constexpr double most_of_any_device = 10'000;  // [N, N·m]
+
 /// 25 ticks at the slowest rate that the device accepts: 0.05 s for most [s].
 double latest_tick_of_all(const DeviceSpecification& device) noexcept {
   return std::max(0.003, 25 / (device.minimum_rate > 0 ? device.minimum_rate : 500));
@@ -37,6 +39,9 @@ ForceLimits limits_of(const DeviceSpecification& device, double period) {
 }
 
 void check(const ForceLimits& limits, const DeviceSpecification& device) {
+  require(
+      !(device.maximum_force > most_of_any_device) && !(device.maximum_torque > most_of_any_device),
+      "force limits: the maximum force or torque of the device is more than 10000, which is no limit to a hand; give its newtons and newton metres");
   require(limits.maximum_force > 0 && limits.maximum_force <= device.maximum_force,
           "force limits: the maximum force must be positive and at most the device's");
   require(limits.continuous_force > 0 && limits.continuous_force <= limits.maximum_force,

@@ -198,4 +198,19 @@ BOOST_AUTO_TEST_CASE(rates_and_limits_that_watch_nothing_are_refused) {
   BOOST_CHECK_THROW(WrenchGuard(feeler::touch(), 1000, limits), std::invalid_argument);
 }
 
+BOOST_AUTO_TEST_CASE(a_device_that_is_said_to_push_without_end_is_refused) {
+  using Figure = double feeler::DeviceSpecification::*;
+  const Figure figures[][2] = {{&feeler::DeviceSpecification::maximum_force, &feeler::DeviceSpecification::continuous_force},
+                               {&feeler::DeviceSpecification::maximum_torque, &feeler::DeviceSpecification::continuous_torque}};
+  for (const auto& [most, for_ever] : figures) {
+    for (const double value : {std::numeric_limits<double>::infinity(), 1e300, 10'001.0, nan_number}) {
+      auto device = feeler::sigma_7();
+      device.*most = value;
+      BOOST_CHECK_THROW(WrenchGuard(device, 1000), std::invalid_argument);
+      device.*for_ever = value;
+      BOOST_CHECK_THROW(WrenchGuard(device, 1000), std::invalid_argument);
+    }
+  }
+}
+
 BOOST_AUTO_TEST_SUITE_END()

@@ -1,4 +1,4 @@
-# Every header compiles after the headers of windows, X11, curses and others, whose macros have common words for names. What it includes itself comes
+# Every header compiles after the headers of windows, X11, curses, game engines and others, whose macros have common words for names. What it includes itself comes
 # before them: the standard library and Eigen hold fewer.
 set(windows_macros "min(a,b)" "max(a,b)" small hyper near far pascal cdecl interface uuid environ IN OUT OPTIONAL NEAR FAR PASCAL CDECL CONST VOID THIS PURE
   STRICT TRUE FALSE BOOL ERROR NOERROR NO_ERROR DELETE IGNORE INFINITE ABSOLUTE RELATIVE DIFFERENCE ALTERNATE WINDING OPAQUE TRANSPARENT PLANES TECHNOLOGY
@@ -12,7 +12,7 @@ set(x11_macros Status Bool True False None Success Always Never Above Below Comp
 # In C++ its macros for `move`, `clear`, `erase` and `refresh` are functions, unless one asks for the macros.
 set(curses_macros OK ERR "timeout(delay)" "scroll(w)" "border(a,b,c,d,e,f,g,h)" "instr(s)" "inch()" "getch()" "getyx(w,y,x)" "standout()" "scrl(n)")
 set(macros_of_others Q_OBJECT slots signals emit foreach forever nil YES NO MIN MAX ABS CLAMP "major(d)" "minor(d)" "makedev(a,b)" I unix linux B0 ECHO
-  DEBUG EPSILON PI EOF)
+  DEBUG EPSILON PI EOF SIGN SWAP "check(expression)" "verify(expression)" "ensure(expression)" "require(expression)" "likely(x)" "unlikely(x)")
 
 set(source "// The headers that ours include:\n")
 foreach(root IN ITEMS ${include_dir} ${PROJECT_SOURCE_DIR}/device/include)

@@ -21,6 +21,7 @@ using namespace feeler::test;
 using feeler_test::ball;
 using feeler_test::block;
 using feeler_test::ClosedMesh;
+using feeler_test::random_direction;
 
 namespace {
 
@@ -37,6 +38,15 @@ struct Scene {
 };
 
 Box<double> cube(double half) { return Box<double>(Vector3<double>::Constant(half)); }
+
+/// Counts how many of its directions are asked for.
+struct CountedHull : ConvexPolytope<double> {
+  explicit CountedHull(const ConvexPolytope<double>& hull) : ConvexPolytope<double>(hull) {}
+  inline static long directions = 0;
+
+  Vector3<double> face_axis(int i) const noexcept { return ++directions, ConvexPolytope<double>::face_axis(i); }
+  Vector3<double> edge_direction(int i) const noexcept { return ++directions, ConvexPolytope<double>::edge_direction(i); }
+};
 
 /// A square of n × n squares at height 0, 1 m wide.
 ClosedMesh ground(int n) {
@@ -195,6 +205,21 @@ BOOST_AUTO_TEST_CASE(a_compound_tool_comes_free_with_all_its_pieces) {
   BOOST_TEST(found.contacts[0].piece == 1);
 }
 
+BOOST_AUTO_TEST_CASE(out_of_an_overlap_a_hull_of_a_thousand_points_tries_some_of_its_directions) {
+  std::mt19937 bits(31);
+  Points<double> points(1000, 3);
+  for (int i = 0; i < points.rows(); ++i) points.row(i) = 0.02 * random_direction(bits).transpose();
+  Scene scene(ball(0.05, 10), CountedHull(ConvexPolytope<double>::hull_of(points)));
+  CountedHull::directions = 0;
+  const auto found = nearest_free_pose(scene.renderer, {.translation = {0.03, 0.02, 0.01}});
+  BOOST_TEST((found.status == Status::penetrating));
+  BOOST_TEST_REQUIRE(found.is_found);
+  const double depth = 0.07 - Vector3<double>(0.03, 0.02, 0.01).norm();
+  BOOST_TEST(found.depth > 0.9 * depth);
+  BOOST_TEST(found.depth < 1.15 * depth);
+  BOOST_TEST(CountedHull::directions < 1'100'000);
+}
+
 BOOST_AUTO_TEST_CASE(where_nothing_is_free_within_the_bound_it_says_so) {
   Scene scene(block(Vector3<double>::Constant(-0.05), Vector3<double>::Constant(0.05)), cube(0.005));
   const Pose<double> pose{.translation = {0.03, 0, 0}};
@@ -207,6 +232,7 @@ BOOST_AUTO_TEST_CASE(where_nothing_is_free_within_the_bound_it_says_so) {
   BOOST_TEST(nearest_free_pose(scene.renderer, pose).is_found);
 
   const double nan = std::nan("");
+  BOOST_TEST(!nearest_free_pose(scene.renderer, pose, nan).is_found);
   const auto no_pose = nearest_free_pose(scene.renderer, {.translation = {nan, 0, 0}});
   BOOST_TEST(!no_pose.is_found);
   BOOST_TEST((no_pose.status == Status::not_finite));

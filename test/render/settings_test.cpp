@@ -226,6 +226,28 @@ BOOST_AUTO_TEST_CASE(weights_of_any_ratio_leave_the_tool_outside) {
   }
 }
 
+BOOST_AUTO_TEST_CASE(of_a_metric_the_ratios_alone_matter) {
+  const TriangleMesh<double> object(wall_at(0.0), wall_triangles);
+  const auto last_tick = [&](int exponent) {
+    Settings<double> settings;
+    const double unit = std::ldexp(1.0, exponent);
+    settings.stiffness = Stiffness<double>::uniform(1024, 0.25);
+    settings.metric = Metric<double>{Vector3<double>::Constant(unit), Vector3<double>::Constant(unit / 4096)};
+    HapticRenderer renderer(object, cube, settings);
+    renderer.reset({{0.03, 0, 0}, Quaternion<double>::Identity()});
+    for (int i = 0; i < 50; ++i) renderer.update({{0.02 - 0.0005 * i, 0.001 * i, 0}, rotation_by({0.004 * i, 0.01 * i, 0.002 * i}).cast<double>()});
+    return renderer.tick();
+  };
+  const auto expected = last_tick(0);
+  for (const int exponent : {-1060, -500, -10, 10, 500, 1000}) {
+    const auto tick = last_tick(exponent);
+    BOOST_TEST(tick.graphic_pose.translation == expected.graphic_pose.translation, "2^" << exponent);
+    Vector3<double> sum = Vector3<double>::Zero();
+    for (const auto& contact : tick.contacts) sum += contact.force * contact.normal_world;
+    BOOST_TEST((sum - tick.wrench.force).norm() < 1e-2 * tick.wrench.force.norm(), "2^" << exponent);
+  }
+}
+
 BOOST_AUTO_TEST_CASE(poses_of_float_are_as_far_from_the_object_as_their_rounding_asks) {
   const Box<float> tool(Vector3<float>::Constant(0.01f));
   for (const float margin : {1e-6f, 1e-7f}) {

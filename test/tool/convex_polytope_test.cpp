@@ -2,6 +2,7 @@
 
 #include <Eigen/Geometry>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <random>
@@ -244,6 +245,26 @@ BOOST_AUTO_TEST_CASE(thousands_of_points_on_a_turned_cube_leave_eight_vertices) 
   const Polytope hull = Polytope::hull_of(rows(points));
   BOOST_TEST(hull.vertex_count() == 8);
   BOOST_TEST(hull.face_count() == 6);
+}
+
+BOOST_AUTO_TEST_CASE(directions_of_edges_are_those_that_a_comparison_of_all_finds) {
+  std::vector<Vector> prism, cubes = cube_corners();
+  for (int i = 0; i < 400; ++i)
+    for (const double z : {-1.0, 1.0}) prism.emplace_back(std::cos(2 * M_PI * i / 400), std::sin(2 * M_PI * i / 400), z);
+  const Eigen::Quaterniond turn(0.3, 0.5, -0.7, 0.4);
+  for (Vector& corner : cubes) corner = turn.normalized() * corner;
+  for (const auto& points : {ellipsoid(300, {1, 0.2, 3}, 41), prism, cubes}) {
+    const auto hull = Polytope::hull_of(rows(points));
+    std::vector<Vector> edges, distinct;
+    for (int i = 0; i < hull.edge_count(); ++i) edges.emplace_back(hull.vertex(hull.edge(i).end) - hull.vertex(hull.edge(i).start));
+    std::stable_sort(edges.begin(), edges.end(), [](const Vector& u, const Vector& v) { return u.norm() > v.norm(); });
+    for (const Vector& edge : edges) {
+      const Vector direction = edge.normalized();
+      const auto is_parallel = [&](const Vector& known) { return known.cross(direction).norm() <= 32 * std::numeric_limits<double>::epsilon(); };
+      if (std::none_of(distinct.begin(), distinct.end(), is_parallel)) distinct.push_back(direction);
+    }
+    BOOST_TEST(hull.edge_direction_count() == int(distinct.size()));
+  }
 }
 
 BOOST_AUTO_TEST_CASE(points_without_a_hull_are_refused_with_a_sentence) {

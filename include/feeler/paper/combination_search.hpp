@@ -188,8 +188,8 @@ class CombinationSearch {
 
   void load(const Scene& scene, const Coordinates& coordinates, const Pose<Scalar>& pose) noexcept {
     problem_.clear_rows();
-    problem_.hessian = coordinates.hessian(scene.metric(), reach_.target);
-    problem_.gradient = coordinates.gradient(scene.metric(), reach_.target);
+    problem_.hessian = coordinates.hessian(scene.metric().along(), reach_.target);
+    problem_.gradient = coordinates.gradient(scene.metric().along(), reach_.target);
     const Scalar margin = options.is_certified() ? scene.margin() : Scalar(0);
     for (const Active& active : constraints_) {
       const auto row = row_at(scene, active.constraint, pose);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <utility>
 
 #include "feeler/core/status.hpp"
 #include "feeler/render/constraints/working_set_growth.hpp"
@@ -42,17 +43,20 @@ class ClosestFeaturesFollower {
     pose_ = pose;
     linearisation().clear();
     certificate_.clear();
-    goes_on_ = takes_first_alone_ = false;
+    goes_on_ = takes_first_alone_ = has_metric_turned_ = false;
     stage_ = Stage::starting;
     limits_.reset(scene.trust_radius());
   }
+
+  /// The metric has turned since the last tick: what was settled in the old one is not in the new one.
+  void metric_turned() noexcept { has_metric_turned_ = true; }
 
   TickStatus follow(const Scene& scene, const Pose<Scalar>& target, Tick<MeshScalar>& tick) noexcept {
     target_ = target;
     if (stage_ == Stage::starting) turn_idly(scene, tick);
     off_ = off_target(scene, pose_);
     if (!goes_on_) limits_.reset(scene.trust_radius());
-    if (!aims_at_target()) judge_again(scene);
+    if (std::exchange(has_metric_turned_, false) || !aims_at_target()) judge_again(scene);
     if (stage_ == Stage::starting) {
       iteration_ = {};
       auto& pairs = linearisation().pairs();
@@ -279,6 +283,7 @@ class ClosestFeaturesFollower {
   Pose<Scalar> target_;  // the haptic pose
   Twist<Scalar> off_;  // of the certified pose from it
   bool goes_on_ = false;  // the last tick left motion for this one
+  bool has_metric_turned_ = false;  // since the last tick
   bool takes_first_alone_ = false;  // the next motion, maybe in the next tick, is the first step: the last went back, as a triangle is missing
   Stage stage_ = Stage::starting;
   Iteration iteration_;

@@ -14,7 +14,8 @@ namespace feeler {
 ///
 /// `reset(scene, pose)` starts from a pose that is free of collision. `follow(scene, target, tick)` moves on towards the target, records the
 /// way in `tick.path` and the effort in `tick.iterations`, `rows` and `work`, and returns the status of the tick; `pose()` is where it
-/// arrived. `report(scene, tick)` lists what holds the tool there. All poses are those of the reference point.
+/// arrived. `report(scene, tick)` lists what holds the tool there. All poses are those of the reference point. One whose metric may turn
+/// between ticks has `metric_turned()` too.
 template <class Method, class Tool, class Solver>
 concept ContactMethod =
     RigidTool<Tool> && QpSolver<Solver> && std::constructible_from<typename Method::template Follower<Tool, Solver>, const RenderedScene<Tool>&> &&
@@ -25,5 +26,11 @@ concept ContactMethod =
       { follower.pose() } noexcept -> std::convertible_to<Pose<typename RenderedScene<Tool>::Scalar>>;
       { follower.report(scene, tick) } noexcept;
     };
+
+/// A contact method whose metric may turn between ticks.
+template <class Method, class Tool, class Solver>
+concept TurningMetricMethod = ContactMethod<Method, Tool, Solver> && requires(typename Method::template Follower<Tool, Solver>& follower) {
+  { follower.metric_turned() } noexcept;
+};
 
 }  // namespace feeler

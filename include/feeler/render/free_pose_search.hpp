@@ -17,6 +17,7 @@
 #include "feeler/render/rendered_scene.hpp"
 #include "feeler/render/tick.hpp"
 #include "feeler/spatial/twist.hpp"
+#include "feeler/tool/swept_tool.hpp"
 
 namespace feeler {
 
@@ -50,7 +51,7 @@ class FreePoseSearch {
     best_.pose = asked_.normalized();
     best_.status = status;
     const Scalar everywhere = Scalar(scene_.object().bounds().diagonal().norm()) + 4 * reach();
-    farthest_ = (std::min)(farthest_, everywhere);
+    farthest_ = farthest_ > Scalar(0) ? (std::min)(farthest_, everywhere) : Scalar(0);  // a NaN is no way either
     for (const bool follows_normals : {true, false}) push_out(follows_normals);
     go_straight();
     if (best_.is_found) renderer_.reset(best_.pose);
@@ -100,9 +101,10 @@ class FreePoseSearch {
   /// included: what frees a tool that is caught by a little, in a tight fit too.
   /// @param follows_normals  to the front of each triangle; else to where it is nearest to be free of it
   void push_out(bool follows_normals) noexcept {
-    constexpr int most_rounds = 64, most_pairs = 50000;
+    constexpr int most_rounds = 64, most_pairs = 50000, most_axes = 8'000'000;
     Pose<Scalar> pose = start_;
     int pairs = 0;
+    axes_ = 0;
     bool is_moved = true;
     for (int round = 0; round < most_rounds && is_moved && pairs < most_pairs; ++round) {
       is_moved = false;
@@ -113,14 +115,14 @@ class FreePoseSearch {
           pose = scene_.idle_turns().moved(pose, push);
           is_moved = true;
         }
-        return ++pairs < most_pairs;
+        return ++pairs < most_pairs && axes_ < most_axes;
       });
     }
     if (!is_moved) try_from(pose);
   }
 
   /// The least motion in the metric after which a triangle is half a margin from a piece; none where it is.
-  Twist<Scalar> push_of(int piece, int triangle, const Pose<Scalar>& pose, bool follows_normals) const noexcept {
+  Twist<Scalar> push_of(int piece, int triangle, const Pose<Scalar>& pose, bool follows_normals) noexcept {
     const auto& tool = scene_.piece(piece);
     const Matrix3<Scalar> corners = in_tool(triangle, pose);
     auto closest = gjk(tool, corners, {}, scene_.clearance().touching);
@@ -131,13 +133,49 @@ class FreePoseSearch {
       closest.distance = separation_along(tool, corners, normal);
       closest.tool_point = tool.vertex(tool.support(Vector3<Scalar>(-normal)));
     } else if (closest.is_touching) {
-      closest = separation_of_touching(tool, corners, closest);
+      way_out(tool, corners, closest);
     }
     Vector6<Scalar> row;
     row.template head<3>() = pose.rotation * closest.normal;
     row.template tail<3>() = (pose.rotation * Vector3<Scalar>(closest.tool_point - scene_.reference())).cross(row.template head<3>());
-    const Vector6<Scalar> motion = row.cwiseQuotient(scene_.metric().diagonal());
+    const Vector6<Scalar> motion = row.cwiseQuotient(scene_.metric().along().diagonal());
     return Twist<Scalar>::from_vector(motion * ((scene_.margin() - closest.distance) / row.dot(motion)));
+  }
+
+  /// The separating plane of a tool and a triangle that overlap. Of a tool of many faces some are tried, spread over it: hardly a longer way out, and
+  /// all of ten thousand would take minutes.
+  template <class Piece>
+  void way_out(const Piece& tool, const Matrix3<Scalar>& corners, ClosestPoints<Scalar>& closest) noexcept {
+    constexpr int most_axes = 512, cost_of_large = 8;
+    const auto& core = core_of(tool);
+    const int axes = core.face_axis_count() + 3 * core.edge_direction_count();
+    axes_ += (std::min)(axes, most_axes) * (axes > most_axes ? cost_of_large : 1);
+    if (axes <= most_axes) {
+      closest = separation_of_touching(tool, corners, closest);
+      return;
+    }
+    closest.distance = -std::numeric_limits<Scalar>::infinity();
+    const auto attempt = [&](const Vector3<Scalar>& normal) {
+      for (const Vector3<Scalar>& n : {normal, Vector3<Scalar>(-normal)}) {
+        const Scalar distance = separation_along(tool, corners, n);
+        if (distance <= closest.distance) continue;
+        closest.distance = distance;
+        closest.normal = n;
+      }
+    };
+    const Vector3<Scalar> normal = triangle_normal<Scalar>(corners.col(0), corners.col(1), corners.col(2));
+    if (!normal.isZero(Scalar(0))) attempt(normal);
+    const int stride = core.face_axis_count() / most_axes + 1;
+    for (int i = 0; i < core.face_axis_count(); i += stride) attempt(core.face_axis(i));
+    closest.tool_point = tool.vertex(tool.support(Vector3<Scalar>(-closest.normal)));
+  }
+  template <class Piece>
+  static const auto& core_of(const Piece& tool) noexcept {
+    if constexpr (SweptTool<Piece>) {
+      return tool.core();
+    } else {
+      return tool;
+    }
   }
 
   /// Looks along 26 directions, farther and farther, and back from where the tool is free.
@@ -199,6 +237,7 @@ class FreePoseSearch {
   Scalar farthest_;
   Result best_;
   Scalar energy_ = Scalar(0);  // of the best, from the pose asked for
+  int axes_ = 0;  // tried in a push out
 };
 
 }  // namespace detail
@@ -212,9 +251,9 @@ class FreePoseSearch {
 /// the margin kept; that nothing is nearer is not proved. The way there from the pose asked for may cross the
 /// object: where walls are thin the other side may be nearer.
 /// @param renderer  a `HapticRenderer`
-/// @param farthest  no tool point goes farther [m]; without it, as far as the outside
+/// @param farthest  no tool point goes farther [m]; without it, as far as the outside; nothing is found where it is no length
 /// @cost  noexcept, no allocation; bounded: 10 to 200 ms, and up to two seconds where thousands of triangles
-/// are overlapped; for use outside the loop
+/// are overlapped, four with a hull of 10,000 points; for use outside the loop
 template <class Renderer, class Scalar = typename Renderer::Scalar>
 FreePose<Scalar> nearest_free_pose(Renderer& renderer, const Pose<Scalar>& pose, Scalar farthest = (std::numeric_limits<Scalar>::max)()) noexcept {
   const TickStatus status = renderer.reset(pose);

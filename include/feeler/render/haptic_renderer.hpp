@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <limits>
 #include <memory>
+#include <optional>
 #include <string>
 
 #include "feeler/core/on_heap.hpp"
@@ -13,11 +14,13 @@
 #include "feeler/object/triangle_mesh.hpp"
 #include "feeler/qp/dual_active_set.hpp"
 #include "feeler/render/closest_features.hpp"
+#include "feeler/render/constraints/working_set.hpp"
 #include "feeler/render/contact_method.hpp"
 #include "feeler/render/motion_certificate.hpp"
 #include "feeler/render/rendered_scene.hpp"
 #include "feeler/render/settings.hpp"
 #include "feeler/render/tick.hpp"
+#include "feeler/spatial/turned_stiffness.hpp"
 #include "feeler/tool/rigid_tool.hpp"
 
 namespace feeler {
@@ -51,8 +54,8 @@ class HapticRenderer {
   }
 
   const Settings<Scalar>& settings() const noexcept { return scene_.settings(); }
-  /// The metric in which the graphic pose is the nearest.
-  const Metric<Working>& metric() const noexcept { return scene_.metric(); }
+  /// The metric in which the graphic pose is the nearest, along its axes.
+  const Metric<Working>& metric() const noexcept { return scene_.metric().along(); }
 
   /// What does not change: object, tool, metric and settings.
   const RenderedScene<Tool>& scene() const noexcept { return scene_; }
@@ -65,14 +68,32 @@ class HapticRenderer {
   /// One tick. The result stays valid until the next call.
   /// @param haptic_pose  pose of the tool frame that the device commands; its quaternion need not be unit
   /// @cost  noexcept; no allocation, lock, clock or I/O; bounded by `Settings::maximum_iterations` and `work_budget`
-  const Tick<Scalar>& update(const Pose<Scalar>& haptic_pose) noexcept;
+  const Tick<Scalar>& update(const Pose<Scalar>& haptic_pose) noexcept { return update_along(haptic_pose, {}); }
+
+  /// One tick with stiffness and metric along other axes than those of the poses, which may be others in each tick: those of a device's base as a turning
+  /// object sees it, or those of the hand. All promises of a tick hold; the wrench is `wrench_along` these axes, and `wrench_along_tool` is that of
+  /// axes that turn with the hand.
+  /// @param world_from_axes  need not be unit; the identity is `update(haptic_pose)`, to the last bit
+  const Tick<Scalar>& update(const Pose<Scalar>& haptic_pose, const Quaternion<Scalar>& world_from_axes) noexcept
+    requires TurningMetricMethod<Method, ToolType, Solver>
+  {
+    return update_along(haptic_pose, world_from_axes);
+  }
 
   /// A tick of a slow host: `update` at one pose again and again until it is no more `unconverged`, or until less than a `work_budget` is left.
   /// Between two frames a hand goes farther than one tick follows.
   /// @param most_work  in the unit of `Settings::work_budget`, about 0.7 µs; it ends within one `update` of that
   /// @return the last tick, with the work and the iterations of all, and the path of the last alone
   /// @cost   noexcept; no allocation, lock, clock or I/O; one `update` at least
-  const Tick<Scalar>& update_until_converged(const Pose<Scalar>& haptic_pose, int most_work) noexcept;
+  const Tick<Scalar>& update_until_converged(const Pose<Scalar>& haptic_pose, int most_work) noexcept {
+    return update_until_converged_along(haptic_pose, {}, most_work);
+  }
+  /// The same with stiffness and metric along other axes; see `update`.
+  const Tick<Scalar>& update_until_converged(const Pose<Scalar>& haptic_pose, const Quaternion<Scalar>& world_from_axes, int most_work) noexcept
+    requires TurningMetricMethod<Method, ToolType, Solver>
+  {
+    return update_until_converged_along(haptic_pose, world_from_axes, most_work);
+  }
 
   /// The result of the last tick.
   const Tick<Scalar>& tick() const noexcept { return tick_; }
@@ -81,6 +102,12 @@ class HapticRenderer {
   const Follower& follower() const noexcept { return state_->follower; }
 
  private:
+  /// Axes of stiffness and metric; unset, those of the poses.
+  using Axes = std::optional<Quaternion<Scalar>>;
+
+  const Tick<Scalar>& update_along(const Pose<Scalar>& haptic_pose, const Axes& world_from_axes) noexcept;
+  const Tick<Scalar>& update_until_converged_along(const Pose<Scalar>& haptic_pose, const Axes& world_from_axes, int most_work) noexcept;
+  void turn_metric(const Quaternion<Working>& world_from_axes) noexcept;
   bool is_free_at(const Pose<Working>& pose) noexcept;
   bool is_inside_at(const Pose<Working>& pose) const noexcept;
   void report(const Pose<Working>& target) noexcept;
@@ -112,6 +139,7 @@ template <RigidTool ToolType, QpSolver Solver, ContactMethod<ToolType, Solver> M
 TickStatus HapticRenderer<ToolType, Solver, Method>::reset(const Pose<Scalar>& pose) noexcept {
   is_reset_ = false;
   tick_ = {};
+  scene_.turn_metric(Quaternion<Working>::Identity());
   if (!pose.is_finite()) return tick_.status = TickStatus::not_finite;
   tick_.graphic_pose = pose.normalized();
   const Pose<Working> reference_pose = scene_.reference_pose(pose);
@@ -124,8 +152,10 @@ TickStatus HapticRenderer<ToolType, Solver, Method>::reset(const Pose<Scalar>& p
 }
 
 template <RigidTool ToolType, QpSolver Solver, ContactMethod<ToolType, Solver> Method>
-const Tick<typename ToolType::Scalar>& HapticRenderer<ToolType, Solver, Method>::update(const Pose<Scalar>& haptic_pose) noexcept {
-  if (!haptic_pose.is_finite()) {
+const Tick<typename ToolType::Scalar>& HapticRenderer<ToolType, Solver, Method>::update_along(const Pose<Scalar>& haptic_pose,
+                                                                                              const Axes& world_from_axes) noexcept {
+  const bool has_axes = !world_from_axes || Pose<Scalar>{.rotation = *world_from_axes}.is_finite();
+  if (!haptic_pose.is_finite() || !has_axes) {
     tick_.path.clear();
     tick_.status = TickStatus::not_finite;
     return tick_;
@@ -135,6 +165,7 @@ const Tick<typename ToolType::Scalar>& HapticRenderer<ToolType, Solver, Method>:
     tick_.graphic_pose = haptic_pose.normalized();
     return tick_;
   }
+  turn_metric(world_from_axes ? world_from_axes->template cast<Working>().normalized() : Quaternion<Working>::Identity());
   const Pose<Working> target = scene_.reference_pose(haptic_pose);
   tick_.work = 0;
   tick_.path.clear();
@@ -144,11 +175,12 @@ const Tick<typename ToolType::Scalar>& HapticRenderer<ToolType, Solver, Method>:
 }
 
 template <RigidTool ToolType, QpSolver Solver, ContactMethod<ToolType, Solver> Method>
-const Tick<typename ToolType::Scalar>& HapticRenderer<ToolType, Solver, Method>::update_until_converged(const Pose<Scalar>& haptic_pose,
-                                                                                                        int most_work) noexcept {
-  int work = update(haptic_pose).work, iterations = tick_.iterations;
+const Tick<typename ToolType::Scalar>& HapticRenderer<ToolType, Solver, Method>::update_until_converged_along(const Pose<Scalar>& haptic_pose,
+                                                                                                              const Axes& world_from_axes,
+                                                                                                              int most_work) noexcept {
+  int work = update_along(haptic_pose, world_from_axes).work, iterations = tick_.iterations;
   while (tick_.status == TickStatus::unconverged && work <= most_work - settings().work_budget) {
-    work += (std::max)(update(haptic_pose).work, 1);
+    work += (std::max)(update_along(haptic_pose, world_from_axes).work, 1);
     iterations += tick_.iterations;
   }
   tick_.work = work;
@@ -157,10 +189,22 @@ const Tick<typename ToolType::Scalar>& HapticRenderer<ToolType, Solver, Method>:
 }
 
 template <RigidTool ToolType, QpSolver Solver, ContactMethod<ToolType, Solver> Method>
+void HapticRenderer<ToolType, Solver, Method>::turn_metric(const Quaternion<Working>& world_from_axes) noexcept {
+  if (scene_.metric().world_from_axes().coeffs() == world_from_axes.coeffs()) return;
+  scene_.turn_metric(world_from_axes);
+  if constexpr (TurningMetricMethod<Method, ToolType, Solver>) state_->follower.metric_turned();
+}
+
+template <RigidTool ToolType, QpSolver Solver, ContactMethod<ToolType, Solver> Method>
 bool HapticRenderer<ToolType, Solver, Method>::is_free_at(const Pose<Working>& pose) noexcept {
+  constexpr int part = 4;  // of the work: one blocker will do, and of a hull of thousands of points each takes long
   int work = 0;
   state_->start.clear();
-  return state_->start.certify(scene_, pose, {}, work, (std::numeric_limits<int>::max)()).blockers.empty();
+  const WorkingSet<Working, 1> none;
+  auto result = state_->start.certify(scene_, pose, {}, work, part, none);
+  for (int limit = work + part; result.is_exhausted && result.blockers.empty(); limit = work + part)
+    result = state_->start.go_on(scene_, work, limit, none);
+  return result.blockers.empty();
 }
 
 /// Of a free pose. A piece that crosses no triangle is in a solid with all of it, or with none.
@@ -182,7 +226,10 @@ void HapticRenderer<ToolType, Solver, Method>::report(const Pose<Working>& targe
   tick_.graphic_pose = scene_.tool_pose(state_->follower.pose());
   const Stiffness<Working> stiffness{settings().stiffness.translational.template cast<Working>(),
                                      settings().stiffness.rotational.template cast<Working>()};
-  tick_.wrench = stiffness.wrench(scene_.idle_turns().motion_between(target, state_->follower.pose())).template cast<Scalar>();
+  const Twist<Working> off = scene_.idle_turns().motion_between(target, state_->follower.pose());
+  const auto& metric = scene_.metric();
+  const Wrench<Working> wrench = metric.is_turned() ? wrench_along(metric.world_from_axes(), stiffness, off) : stiffness.wrench(off);
+  tick_.wrench = wrench.template cast<Scalar>();
   tick_.contacts.clear();
   state_->follower.report(scene_, tick_);
 }

@@ -18,6 +18,7 @@
 #include "feeler/render/scene_rounding.hpp"
 #include "feeler/render/settings.hpp"
 #include "feeler/render/usable_settings.hpp"
+#include "feeler/spatial/turned_metric.hpp"
 #include "feeler/tool/piece_tree.hpp"
 #include "feeler/tool/rigid_tool.hpp"
 #include "feeler/tool/tool_incidence.hpp"
@@ -36,7 +37,7 @@ auto working_tool(const Tool& tool) {
 }
 }  // namespace detail
 
-/// The constant part of a rendering. Poses that a contact method works on are those of the reference point: their translation is where it
+/// The constant part of a rendering, but for the axes of the metric. Poses that a contact method works on are those of the reference point: their translation is where it
 /// is in the world, not where the origin of the tool frame is.
 template <RigidTool ToolType>
 class RenderedScene {
@@ -53,7 +54,7 @@ class RenderedScene {
         settings_(usable(object, tool_, settings)),
         reference_(settings.reference_point.template cast<Scalar>()),
         metric_(metric_of(settings)),
-        idle_turns_(tool_, reference_, metric_),
+        idle_turns_(tool_, reference_, metric_.along()),
         piece_tree_(tool_) {
     for (int i = 0; i < piece_count(); ++i) {
       incidences_.push_back(incidence_of(piece(i)));
@@ -91,7 +92,10 @@ class RenderedScene {
   const Vector3<Scalar>& reference() const noexcept { return reference_; }
   /// Largest distance of a point of the tool, or of its core, from the reference point [m].
   Scalar radius() const noexcept { return radius_; }
-  const Metric<Scalar>& metric() const noexcept { return metric_; }
+  const TurnedMetric<Scalar>& metric() const noexcept { return metric_; }
+  /// From here on the metric weighs along other axes; all else stays as it is.
+  /// @param world_from_axes  unit
+  void turn_metric(const Quaternion<Scalar>& world_from_axes) noexcept { metric_.turn(world_from_axes); }
   const Clearance<Scalar>& clearance() const noexcept { return clearance_; }
   /// The clearance to certify a motion with. Where it ends is rounded to the size of the numbers it starts from, so a tool that comes from
   /// kilometres away keeps as much distance.
@@ -171,7 +175,7 @@ class RenderedScene {
   Vector3<Scalar> reference_;
   std::vector<Scalar> radii_;
   Scalar radius_ = Scalar(0);
-  Metric<Scalar> metric_;
+  TurnedMetric<Scalar> metric_;
   [[no_unique_address]] IdleTurns<Tool> idle_turns_;
   [[no_unique_address]] std::conditional_t<CompoundShape<Tool>, PieceTree<Tool>, NoGroups> piece_tree_;
   Clearance<Scalar> clearance_;

@@ -22,10 +22,10 @@ struct Settings {
   /// is to be felt, needs a `metric`: nothing else would draw the tool to the hand there.
   Stiffness<Scalar> stiffness = {};
 
-  /// M of the paper's eq. 3. Unset, it is proportional to K, and the wrench is the exact sum of the contact forces; another metric
+  /// M of the paper's eq. 3, along the same axes as K: those of the poses, or those that `update` is given. Unset, it is proportional to K, and the wrench is the exact sum of the contact forces; another metric
   /// bends the wrench out of the contact cone.
   std::optional<Metric<Scalar>> metric = {};
-  Metric<Scalar> metric_in_use() const noexcept { return metric ? *metric : Metric<Scalar>::proportional_to(stiffness); }
+  Metric<Scalar> metric_in_use() const noexcept { return metric ? metric->normalized() : Metric<Scalar>::proportional_to(stiffness); }
 
   /// Distance kept between tool and object [m]. It smooths the edges of the obstacle: less is more exact and needs more
   /// iterations; below 1e-8 convergence is lost, above 1e-5 it can be felt. Tighter fits than twice the margin are still rendered.

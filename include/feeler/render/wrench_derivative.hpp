@@ -92,15 +92,16 @@ class PushingRows {
     Scalar force = Scalar(0);  // multiplier
   };
 
+  /// @param axes   of those coordinates
   /// @param unit   of the coordinates in which the metric is the identity
   /// @param touch  room below which a row touches [m]
   template <class Problem>
-  PushingRows(const Problem& problem, const Vector6<Scalar>& unit, Scalar touch) noexcept {
+  PushingRows(const Problem& problem, const TurnedMetric<Scalar>& axes, const Vector6<Scalar>& unit, Scalar touch) noexcept {
     Vector6<Scalar> pull = Vector6<Scalar>::Zero();
     Scalar most(0);
     for (const auto& active : problem.solution().active) {
       if (active.row >= problem.row_count()) continue;
-      shares_.push_back({active.row, unit.cwiseProduct(problem.row(active.row).gradient()), active.multiplier});
+      shares_.push_back({active.row, unit.cwiseProduct(axes.in_axes(problem.row(active.row).gradient())), active.multiplier});
       pull += active.multiplier * shares_.back().gradient;
       most = (std::max)(most, active.multiplier);
     }
@@ -108,7 +109,7 @@ class PushingRows {
     for (int k = 0; k < problem.row_count() && !shares_.empty() && !shares_.full(); ++k) {
       const auto is_k = [k](const Share& share) { return share.row == k; };
       if (problem.room_after(k) > touch || std::any_of(of_solver.begin(), of_solver.end(), is_k)) continue;
-      shares_.push_back({k, unit.cwiseProduct(problem.row(k).gradient()), Scalar(0)});
+      shares_.push_back({k, unit.cwiseProduct(axes.in_axes(problem.row(k).gradient())), Scalar(0)});
     }
     touching_ = shares_.size();
     const Scalar least = most * Scalar(1e-6);
@@ -161,7 +162,7 @@ class PushingRows {
 ///     H x + F dh ∈ span Jₖ,  Jₖ x = 0,   H = ∂²f/∂g² − Σ λₖ ∂²sₖ/∂g²,   F = ∂²f/∂g∂h
 ///
 /// (the KKT conditions of the active set, differentiated), and the wrench of the paper's eq. 4, K e(g, h), by
-/// ∂W/∂g x + ∂W/∂h dh: in flat space K (x − dh). Nothing is added to a tick that does not ask.
+/// ∂W/∂g x + ∂W/∂h dh: in flat space K (x − dh). Axes that `update` was given for stiffness and metric stand. Nothing is added to a tick that does not ask.
 /// @cost  noexcept, no allocation; a factorisation and some eigenvalues of 6×6 matrices: half of a tick in the cavity, a
 ///        fifth of one on terrain
 template <RigidTool Tool, QpSolver Solver, class Method>
@@ -175,10 +176,11 @@ WrenchDerivative<typename HapticRenderer<Tool, Solver, Method>::Working> wrench_
   if (status != TickStatus::converged && status != TickStatus::unconverged) return result;
 
   const auto& settings = renderer.settings();
-  const Metric<Scalar>& metric = renderer.metric();
+  const TurnedMetric<Scalar>& axes = renderer.scene().metric();  // all that follows is along these
+  const Metric<Scalar>& metric = axes.along();
   const Vector3<Scalar> stiffness = settings.stiffness.translational.template cast<Scalar>();
   const Vector3<Scalar> rotational_stiffness = settings.stiffness.rotational.template cast<Scalar>();
-  const Vector3<Scalar> phi = motion_between(renderer.follower().target(), renderer.follower().pose()).angular;
+  const Vector3<Scalar> phi = axes.in_axes(motion_between(renderer.follower().target(), renderer.follower().pose())).angular;
   const Matrix3<Scalar> by_graphic = inverse_left_jacobian<Scalar>(phi);  // dφ by a turn of the graphic tool
   const Matrix3<Scalar> by_haptic = -inverse_left_jacobian<Scalar>(Vector3<Scalar>(-phi));  // and of the haptic tool
 
@@ -200,11 +202,11 @@ WrenchDerivative<typename HapticRenderer<Tool, Solver, Method>::Working> wrench_
     unit[i + 3] = Scalar(1) / sqrt(metric.rotational[i]);
   }
   const auto& problem = renderer.follower().problem();
-  const detail::PushingRows<Scalar> pushing(problem, unit, Scalar(settings.margin) / 100);
+  const detail::PushingRows<Scalar> pushing(problem, axes, unit, Scalar(settings.margin) / 100);
   Matrix6<Scalar> across = Matrix6<Scalar>::Zero();
   Matrix6<Scalar> curvature = Matrix6<Scalar>::Zero();
   for (const auto& share : pushing.shares()) {
-    curvature += share.force * curvature_of(problem.row(share.row));
+    curvature += share.force * axes.in_axes(curvature_of(problem.row(share.row)));
     Vector6<Scalar> rest = share.gradient - across * share.gradient;
     rest -= across * rest;  // once more, against rounding
     const Scalar dependent = Scalar(1e-6);
@@ -227,7 +229,7 @@ WrenchDerivative<typename HapticRenderer<Tool, Solver, Method>::Working> wrench_
   Matrix6<Scalar> haptic = Matrix6<Scalar>::Zero();
   haptic.template topLeftCorner<3, 3>() = -Matrix3<Scalar>(stiffness.asDiagonal());
   haptic.template bottomRightCorner<3, 3>() = twist * by_haptic;
-  result.matrix = haptic - graphic * answer;
+  result.matrix = axes.in_world(Matrix6<Scalar>(haptic - graphic * answer));
   return result;
 }
 

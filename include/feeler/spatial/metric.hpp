@@ -8,7 +8,7 @@
 
 namespace feeler {
 
-/// Diagonal metric M of the paper's eq. 3: ½ eᵀ M e weighs metres against radians; only ratios matter.
+/// Diagonal metric M of the paper's eq. 3: ½ eᵀ M e weighs metres against radians; only ratios matter to a renderer, which takes it `normalized`.
 template <RealScalar ScalarType>
 struct Metric {
   using Scalar = ScalarType;
@@ -18,10 +18,15 @@ struct Metric {
 
   /// M ∝ K, scaled so that a metre of translation weighs one. With it the wrench is the exact sum of the contact forces.
   static Metric proportional_to(const Stiffness<Scalar>& stiffness) noexcept {
-    const Scalar unit = stiffness.translational.maxCoeff();
-    return {stiffness.translational / unit, stiffness.rotational / unit};
+    return Metric{stiffness.translational, stiffness.rotational}.normalized();
   }
   static Metric with_length(Scalar length) noexcept { return {Vector3<Scalar>::Ones(), Vector3<Scalar>::Constant(length * length)}; }
+
+  /// With the same ratios, and one as the largest translational weight.
+  Metric normalized() const noexcept {
+    const Scalar unit = translational.maxCoeff();
+    return {translational / unit, rotational / unit};
+  }
 
   /// Of M.
   Vector6<Scalar> diagonal() const noexcept {

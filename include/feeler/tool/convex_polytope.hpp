@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -165,13 +166,20 @@ class ConvexPolytope {
   static std::vector<Vector3<Scalar>> without_parallels(std::vector<std::pair<long double, Vector3<Working>>>& directions) {
     const Working tolerance = 32 * Working(std::numeric_limits<Scalar>::epsilon());
     std::stable_sort(directions.begin(), directions.end(), [](const auto& a, const auto& b) { return a.first > b.first; });
-    std::vector<Vector3<Working>> kept;
+    // Parallel directions have the same height along any axis. This one is beside those of shapes that people draw.
+    const Vector3<Working> axis(Working(0.4472), Working(0.6325), Working(0.6325));
+    std::multimap<Working, Vector3<Working>> kept;
     std::vector<Vector3<Scalar>> result;
     for (const auto& [size, direction] : directions) {
-      const bool is_new = std::none_of(kept.begin(), kept.end(),
-                                       [&d = direction, tolerance](const auto& k) { return k.cross(d).squaredNorm() <= tolerance * tolerance; });
+      using std::abs;
+      const Working height = abs(axis.dot(direction));
+      const bool is_none = !(direction.squaredNorm() > Working(0.5));  // without a length: parallel to all
+      const auto begin = is_none ? kept.begin() : kept.lower_bound(height - 2 * tolerance);
+      const auto end = is_none ? kept.end() : kept.upper_bound(height + 2 * tolerance);
+      const bool is_new =
+          std::none_of(begin, end, [&d = direction, tolerance](const auto& k) { return k.second.cross(d).squaredNorm() <= tolerance * tolerance; });
       if (!is_new) continue;
-      kept.push_back(direction);
+      kept.emplace(height, direction);
       result.push_back(direction.template cast<Scalar>());
     }
     return result;

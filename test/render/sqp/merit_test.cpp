@@ -9,7 +9,7 @@ namespace {
 using Twist = feeler::Twist<double>;
 
 constexpr double margin = 1e-6;                    // [m]
-const feeler::Metric<double> metric;               // a metre of translation weighs one
+const feeler::TurnedMetric<double> metric = feeler::Metric<double>();  // a metre of translation weighs one
 Twist off(double x) { return {{x, 0, 0}, {0, 0, 0}}; }  // [m]
 
 }  // namespace

@@ -33,7 +33,8 @@ struct ForceLimits {
 /// @param period  of the loop; two ticks in a row may be lost [s]
 ForceLimits limits_of(const DeviceSpecification& device, double period = 1e-3);
 
-/// Refuses (`std::invalid_argument`) limits outside their bounds, or above what the device can do.
-void check(const ForceLimits& limits, const DeviceSpecification& device);
+/// Refuses (`std::invalid_argument`) limits outside their bounds, or above what the device can do, and a device that is said to do more than 10,000 N or
+/// N·m: an infinity limits nothing.
+void(check)(const ForceLimits& limits, const DeviceSpecification& device);  // a macro of engines
 
 }  // namespace feeler

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "feeler/core/scalar.hpp"
-#include "feeler/spatial/metric.hpp"
+#include "feeler/spatial/turned_metric.hpp"
 #include "feeler/spatial/twist.hpp"
 
 namespace feeler {
@@ -14,7 +14,8 @@ namespace feeler {
 /// @param margin         that is kept [m]
 /// @param restoration    energy that it may cost to win the margin back [m²]
 template <class Scalar>
-bool descends(const Metric<Scalar>& metric, const Twist<Scalar>& before, const Twist<Scalar>& after, Scalar margin, Scalar restoration) noexcept {
+bool descends(const TurnedMetric<Scalar>& metric, const Twist<Scalar>& before, const Twist<Scalar>& after, Scalar margin,
+              Scalar restoration) noexcept {
   using std::sqrt;
   const Scalar energy_before = metric.energy(before), energy_after = metric.energy(after);
   return energy_after <= energy_before + restoration + margin * (sqrt(2 * energy_before) + margin);
@@ -22,7 +23,7 @@ bool descends(const Metric<Scalar>& metric, const Twist<Scalar>& before, const T
 
 /// Whether it is nearer by more than a tenth of the margin is worth.
 template <class Scalar>
-bool descends_clearly(const Metric<Scalar>& metric, const Twist<Scalar>& before, const Twist<Scalar>& after, Scalar margin) noexcept {
+bool descends_clearly(const TurnedMetric<Scalar>& metric, const Twist<Scalar>& before, const Twist<Scalar>& after, Scalar margin) noexcept {
   using std::sqrt;
   const Scalar energy_before = metric.energy(before);
   const Scalar energy_after = metric.energy(after);

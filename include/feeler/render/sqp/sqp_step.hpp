@@ -7,8 +7,8 @@
 #include "feeler/render/sqp/linearisation.hpp"
 #include "feeler/render/sqp/work_budget.hpp"
 #include "feeler/render/tick.hpp"
-#include "feeler/spatial/metric.hpp"
 #include "feeler/spatial/pose.hpp"
+#include "feeler/spatial/turned_metric.hpp"
 #include "feeler/spatial/twist.hpp"
 
 namespace feeler {
@@ -71,7 +71,7 @@ class SqpStep {
   /// Where the step goes back on the last one, each linearisation lacks what stopped the other: solves again with what stopped the last.
   bool reconcile() noexcept {
     const Twist<Scalar>& last_step = rows_.stops().step();
-    const Metric<Scalar>& metric = scene_.metric();
+    const TurnedMetric<Scalar>& metric = scene_.metric();
     if (!(metric.product(solved_step(), last_step) < -metric.energy(last_step) / 2)) return false;
     if (!budget_.allows_solve(tick_.work) || !rows_.keep_stops(scene_)) return false;
     project_again();

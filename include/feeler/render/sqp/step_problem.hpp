@@ -13,7 +13,7 @@
 #include "feeler/render/sqp/elastic_rows.hpp"
 #include "feeler/render/sqp/lagrangian_hessian.hpp"
 #include "feeler/render/sqp/last_forces.hpp"
-#include "feeler/spatial/metric.hpp"
+#include "feeler/spatial/turned_metric.hpp"
 
 namespace feeler {
 
@@ -111,10 +111,10 @@ class StepProblem {
   Scalar room_after(int k) const noexcept { return problem_.rows[index(k)].dot(solution_.step) - problem_.bounds[index(k)]; }
 
   /// The step that minimises f with its own Hessian: the way home, where no row holds.
-  const Vector6<Scalar>& project(const Metric<Scalar>& metric, const Twist<Scalar>& graphic_from_haptic, Scalar margin) noexcept {
+  const Vector6<Scalar>& project(const TurnedMetric<Scalar>& metric, const Twist<Scalar>& graphic_from_haptic, Scalar margin) noexcept {
     load_rows(margin);
-    if (metric.is_isotropic()) {
-      detail::set_symmetric(problem_.hessian, detail::diagonal_of(metric.diagonal()));
+    if (!metric.is_turned() && metric.along().is_isotropic()) {
+      detail::set_symmetric(problem_.hessian, detail::diagonal_of(metric.along().diagonal()));
     } else {
       problem_.hessian = metric.homing_hessian(graphic_from_haptic);
     }
@@ -127,7 +127,7 @@ class StepProblem {
     return solution_.step;
   }
   /// After `project`, or a near guess: where contacts hold, the step with the Hessian of the Lagrangian.
-  const Vector6<Scalar>& bend(const Metric<Scalar>& metric, const Twist<Scalar>& graphic_from_haptic) noexcept {
+  const Vector6<Scalar>& bend(const TurnedMetric<Scalar>& metric, const Twist<Scalar>& graphic_from_haptic) noexcept {
     if (is_free_) return solution_.step;
     projection_ = solution_;
     is_newton_ = set_lagrangian(problem_, metric, graphic_from_haptic, rows_, projection_.active);
@@ -145,7 +145,7 @@ class StepProblem {
     right,  ///< the step is what `bend` would find
   };
   /// Both at once, with the forces of the last step in place of those of a projection (sequential quadratic programming).
-  Guess bend_again(const Metric<Scalar>& metric, const Twist<Scalar>& graphic_from_haptic, Scalar margin) noexcept {
+  Guess bend_again(const TurnedMetric<Scalar>& metric, const Twist<Scalar>& graphic_from_haptic, Scalar margin) noexcept {
     if (last_forces_.empty() || !last_forces_.find(rows_, projection_.active)) return Guess::none;
     load_rows(margin);
     set_price(metric, graphic_from_haptic, margin);
@@ -165,9 +165,10 @@ class StepProblem {
   bool is_newton() const noexcept { return is_newton_; }
 
   /// The smallest step that meets the rows.
-  const Vector6<Scalar>& restore(const Metric<Scalar>& metric, Scalar margin) noexcept {
+  const Vector6<Scalar>& restore(const TurnedMetric<Scalar>& metric, Scalar margin) noexcept {
     load_rows(margin);
-    detail::set_symmetric(problem_.hessian, detail::diagonal_of(metric.diagonal()));
+    if (metric.is_turned()) problem_.hessian = metric.matrix();
+    else detail::set_symmetric(problem_.hessian, detail::diagonal_of(metric.along().diagonal()));
     problem_.gradient.setZero();
     solve_elastic();
     return solution_.step;
@@ -208,7 +209,7 @@ class StepProblem {
   }
 
   /// Some times the force with which the hand pulls, as a translation of the tool; with next to no force still enough to win the margin back.
-  void set_price(const Metric<Scalar>& metric, const Twist<Scalar>& graphic_from_haptic, Scalar margin) noexcept {
+  void set_price(const TurnedMetric<Scalar>& metric, const Twist<Scalar>& graphic_from_haptic, Scalar margin) noexcept {
     using std::sqrt;
     price_ = price_per_force * (sqrt(2 * metric.energy(graphic_from_haptic)) + margin);
   }
