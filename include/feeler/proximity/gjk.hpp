@@ -56,7 +56,7 @@ struct WholeTriangle {
 /// The same of a part of a triangle.
 template <class Scalar>
 struct PartOfTriangle {
-  const FixedVector<PartCorner<Scalar>, 9>& corners;
+  const CutTriangle<Scalar>& corners;
 
   Vector3<Scalar> corner(int i) const noexcept { return corners[i].point; }
   Vector3<Scalar> middle() const noexcept {
@@ -82,6 +82,44 @@ struct GjkResult {
   Scalar size = Scalar(0);         ///< of the tool, as far as it was looked at [m]
 };
 
+/// Adds the difference of a tool vertex and a corner to the simplex of a query.
+template <ConvexTool Tool, class Object>
+void add_pair(const Tool& tool, const Object& object, int vertex, int corner, GjkResult<typename Tool::Scalar>& query) noexcept {
+  using Scalar = typename Tool::Scalar;
+  Simplex<Scalar>& simplex = query.simplex;
+  const auto i = std::size_t(simplex.size++);
+  const Vector3<Scalar> point = tool.vertex(vertex);
+  query.size = (std::max)(query.size, point.template lpNorm<Eigen::Infinity>());
+  simplex.points[i] = point - object.corner(corner);
+  simplex.tool_vertices[i] = vertex;
+  simplex.corners[i] = corner;
+}
+
+/// Makes the simplex that a query starts from: the features of an earlier one, or a point along the way between the middles.
+template <ConvexTool Tool, class Object>
+void start_simplex(const Tool& tool, const Object& object, const WitnessFeatures& warm, GjkResult<typename Tool::Scalar>& query) noexcept {
+  using Scalar = typename Tool::Scalar;
+  if (warm.size > 0) {
+    for (std::size_t i = 0; i < std::size_t(warm.size); ++i) add_pair(tool, object, warm.tool_vertices[i], warm.corners[i], query);
+  } else {
+    const Vector3<Scalar> towards = object.middle() - tool.vertex(0);
+    const int vertex = tool.support(towards);
+    add_pair(tool, object, vertex, object.highest(Vector3<Scalar>(tool.vertex(vertex) - object.middle())), query);
+  }
+  reduce_to_closest(query.simplex);
+}
+
+/// Whether a simplex has the difference of a tool vertex and a corner: then no point leads nearer to the origin.
+template <class Scalar>
+bool has_pair(const Simplex<Scalar>& simplex, int vertex, int corner) noexcept {
+  bool is_known = false;
+  for (std::size_t i = 0; i < std::size_t(simplex.size); ++i) {
+    is_known = is_known || (simplex.tool_vertices[i] == vertex && simplex.corners[i] == corner);
+  }
+  return is_known;
+}
+
+/// The iteration of Gilbert, Johnson and Keerthi: the simplex of differences comes closer to the origin by one support point at a time.
 template <ConvexTool Tool, class Object>
 [[gnu::always_inline]] inline GjkResult<typename Tool::Scalar> run_gjk(const Tool& tool, const Object& object, const WitnessFeatures& warm,
                                                                        typename Tool::Scalar touching_distance) noexcept {
@@ -93,23 +131,7 @@ template <ConvexTool Tool, class Object>
   GjkResult<Scalar> answer;
   Simplex<Scalar>& simplex = answer.simplex;
   ClosestPoints<Scalar>& result = answer.closest;
-  Scalar& size = answer.size;
-  const auto add = [&](int vertex, int corner) {
-    const auto i = std::size_t(simplex.size++);
-    const Vector3<Scalar> point = tool.vertex(vertex);
-    size = (std::max)(size, point.template lpNorm<Eigen::Infinity>());
-    simplex.points[i] = point - object.corner(corner);
-    simplex.tool_vertices[i] = vertex;
-    simplex.corners[i] = corner;
-  };
-  if (warm.size > 0) {
-    for (std::size_t i = 0; i < std::size_t(warm.size); ++i) add(warm.tool_vertices[i], warm.corners[i]);
-  } else {
-    const Vector3<Scalar> towards = object.middle() - tool.vertex(0);
-    const int vertex = tool.support(towards);
-    add(vertex, object.highest(Vector3<Scalar>(tool.vertex(vertex) - object.middle())));
-  }
-  reduce_to_closest(simplex);
+  start_simplex(tool, object, warm, answer);
 
   Scalar best_distance = -std::numeric_limits<Scalar>::infinity();
   for (int iteration = 0; iteration < maximum_iterations; ++iteration) {
@@ -130,14 +152,10 @@ template <ConvexTool Tool, class Object>
       result.normal = normal;
       result.distance = distance;
     }
-    if (length - distance <= Scalar(1e-12) * length + 4 * epsilon * size) break;
-    bool is_known = false;
-    for (std::size_t i = 0; i < std::size_t(simplex.size); ++i) {
-      is_known = is_known || (simplex.tool_vertices[i] == vertex && simplex.corners[i] == corner);
-    }
-    if (is_known) break;
+    if (length - distance <= Scalar(1e-12) * length + 4 * epsilon * answer.size) break;
+    if (has_pair(simplex, vertex, corner)) break;
     const Simplex<Scalar> last = simplex;
-    add(vertex, corner);
+    add_pair(tool, object, vertex, corner, answer);
     const bool is_apart = reduce_to_closest(simplex);
     if (is_apart && simplex.closest.squaredNorm() < length_squared) continue;
     // No closer, or around the origin though a plane parts the shapes: the simplex is flat to rounding, as the four points of two

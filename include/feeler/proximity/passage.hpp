@@ -79,10 +79,6 @@ FEELER_FLATTEN HeldPart<typename Tool::Scalar> held_part(const MovingTool<Tool>&
   return {(std::max)(part_tool, part_world), part_world < part_tool};
 }
 
-}  // namespace detail
-
-namespace detail {
-
 /// Whether a plane that turns from one normal to another certainly holds over [start, end].
 ///
 /// Edges that roll over each other turn their common normal, and no fixed plane follows. With n(t) = (1−t)n₀ + t n₁ and chords for the
@@ -109,6 +105,167 @@ FEELER_FLATTEN bool turning_plane_holds(const MovingTool<Tool>& moving, const Ma
   return b1 - 2 * sagitta >= -sqrt(b0 * b2);
 }
 
+/// One triangle that a tool moves past, step by step as `pass` describes it.
+template <ConvexTool Tool>
+class TrianglePassage {
+ public:
+  using Scalar = typename Tool::Scalar;
+  using Plane = HeldPlane<Scalar>;
+  using Frame = MotionFrame<Scalar>;
+  using Result = Passage<Scalar>;
+
+  /// @param work  grows by one for each distance query; it and all else is kept by reference
+  TrianglePassage(const MovingTool<Tool>& moving, const PassedTriangle<Scalar>& triangle, const Frame& start, const Frame& end,
+                  const Clearance<Scalar>& clearance, int& work) noexcept
+      : moving_(moving),
+        triangle_(triangle),
+        start_(start),
+        end_(end),
+        clearance_(clearance),
+        work_(work),
+        warm_(triangle.features),
+        is_known_(triangle.normal.squaredNorm() > Scalar(0)) {}
+
+  /// @param enough, limit  as of `pass`
+  Result certify(Scalar enough, int limit) noexcept {
+    plane_ = {triangle_.normal, is_known_ ? slack_at(triangle_.normal, start_) : Scalar(0)};
+    if (is_known_) {
+      touches_ = plane_.slack < 2 * clearance_.touching;
+      required_ = clearance_.required(plane_.slack);
+      part_from_start_ = part_held(start_, end_);
+      if (!(part_from_start_ < Scalar(1))) return free_by(plane_.normal);
+      if (turns_to_guess()) return free_by(triangle_.last_normal);
+    }
+    last_ = query(end_, touches_);
+    if (const auto held = held_back_from_end(); !(held.part < Scalar(1))) return free_by_last(held.turns);
+    if (!is_known_) measure_start();
+    if (turns_to(last_, start_, end_)) return free_by_last();
+    return advance(enough, limit);
+  }
+
+ private:
+  /// A plane between the closest points. Where shapes overlap only the sign of its slack matters, unless they touched from the start: then the
+  /// least overlap decides.
+  Plane query(const Frame& frame, bool touches) noexcept {
+    ++work_;
+    const Matrix3<Scalar> in_tool = moving_.in_tool(triangle_.corners, frame);
+    auto closest = gjk(moving_.tool(), in_tool, warm_, clearance_.touching);
+    warm_ = closest.features;
+    if (closest.is_touching) {
+      // The core of a swept tool touches nothing before the tool is in it by the radius.
+      if (SweptTool<Tool> || !touches) return {Vector3<Scalar>::Zero(), -std::numeric_limits<Scalar>::infinity()};
+      if constexpr (!SweptTool<Tool>) closest = separation_of_touching(moving_.tool(), in_tool, closest, clearance_.allowance);
+    }
+    return {frame.rotation * closest.normal, closest.distance};
+  }
+  Scalar slack_at(const Vector3<Scalar>& normal, const Frame& frame) const noexcept {
+    return moving_.lowest(normal, frame) - highest_corner(triangle_.corners, normal);
+  }
+
+  /// Of the way from one time to another, how much the plane at hand certainly holds for.
+  Scalar part_held(const Frame& from, const Frame& to) const noexcept {
+    return held_part(moving_, triangle_.corners, plane_, from, to, required_, true).part;
+  }
+  /// Whether a plane that turns from that at hand to another certainly holds.
+  bool turns_to(const Plane& other, const Frame& from, const Frame& to) const noexcept {
+    return turning_plane_holds(moving_, triangle_.corners, plane_, from, other, to, required_);
+  }
+  bool turns_to_guess() const noexcept {
+    return triangle_.last_normal.squaredNorm() > Scalar(0) && turns_to({triangle_.last_normal, slack_at(triangle_.last_normal, end_)}, start_, end_);
+  }
+
+  /// The part of the motion, seen from the end, that the plane measured there certainly holds for.
+  HeldPart<Scalar> held_back_from_end() const noexcept {
+    if (!(last_.slack > -std::numeric_limits<Scalar>::infinity())) return {Scalar(0), false};
+    const Scalar known = (std::max)(slack_at(last_.normal, start_), is_known_ ? plane_.slack : Scalar(0));
+    const Scalar required = clearance_.required((std::max)(known, Scalar(0)));
+    return held_part(moving_, triangle_.corners, last_, end_, start_, required, false);
+  }
+  /// Finds the plane at the start where none is known, and that at the end once more where the shapes touch from there.
+  void measure_start() noexcept {
+    plane_ = query(start_, true);
+    touches_ = plane_.slack < 2 * clearance_.touching;
+    if (touches_) last_ = query(end_, true);
+    required_ = clearance_.required(plane_.slack);
+  }
+
+  /// Conservative advancement: by parts that a plane certainly holds for, or turns over, until it turns to that at the end, or parts are too short.
+  Result advance(Scalar enough, int limit) noexcept {
+    const int maximum_steps = triangle_.is_exact ? 24 : 10;
+    resolution_ = triangle_.is_exact ? clearance_.resolution : (std::max)(clearance_.resolution, moving_.length() * end_.time / 16);
+    beyond_ = end_.time;
+    Frame frame = start_;
+    bool is_cut = false;
+    for (int step = 0; step < maximum_steps; ++step) {
+      is_cut = work_ >= limit;
+      if (is_cut) break;
+      const Scalar whole = end_.time - frame.time;
+      const Scalar certain = certain_time(frame, whole * (is_known_ && step == 0 ? part_from_start_ : part_held(frame, end_)));
+      if (!(certain < whole)) return free_by_last();
+      const Scalar half = (beyond_ - frame.time) / 2;
+      if (rolls_ && half > certain && half * moving_.length() >= resolution_) {
+        if (!roll(frame, half)) continue;
+      } else {
+        if (!move(frame, certain, enough)) break;
+      }
+      if (turns_to(last_, frame, end_)) return free_by_last();
+    }
+    return {.time = frame.time, .is_blocked = true, .normal = plane_.normal, .features = warm_, .is_cut = is_cut};
+  }
+  /// For how long the plane at hand certainly holds.
+  /// @param time  that it holds for as is known from the whole way to the end
+  Scalar certain_time(const Frame& frame, Scalar time) const noexcept {
+    const Scalar whole = end_.time - frame.time;
+    if (!(time < whole && 3 * time < whole)) return time;
+    // A sagitta falls with the square of the duration: over a shorter part the same plane holds for longer.
+    const Scalar shorter = (std::max)(3 * time, whole / 8);
+    return (std::max)(time, shorter * part_held(frame, moving_.frame_at(frame.time + shorter)));
+  }
+  /// Moves on by half of what is left, if a plane certainly turns so far; if not, less is left.
+  bool roll(Frame& frame, Scalar half) noexcept {
+    const Frame middle = moving_.frame_at(frame.time + half);
+    const Plane next = query(middle, touches_);
+    if (!turns_to(next, frame, middle)) {
+      beyond_ = middle.time;
+      return false;
+    }
+    frame = middle;
+    plane_ = next;
+    return true;
+  }
+  /// Moves on for as long as the plane at hand certainly holds, and finds another there; false where that is no use any more.
+  bool move(Frame& frame, Scalar time, Scalar enough) noexcept {
+    const bool is_short = time * moving_.length() < resolution_;
+    frame = moving_.frame_at(frame.time + time);
+    if (is_short || is_late(frame.time, enough)) return false;
+    const Plane next = query(frame, true);
+    // The plane gave out, yet the shapes are as far apart: it turns, and a fixed one would follow in tiny steps.
+    rolls_ = triangle_.is_exact && 2 * (next.slack - required_) > plane_.slack - required_;
+    plane_ = next;
+    return true;
+  }
+  /// Whether a triangle that is in the way at the end is known not to block before it need be.
+  bool is_late(Scalar time, Scalar enough) const noexcept { return last_.slack < required_ && 4 * (enough - time) * moving_.length() <= resolution_; }
+
+  Result free_by(const Vector3<Scalar>& normal) const noexcept { return {end_.time, false, normal, warm_}; }
+  Result free_by_last(bool turns = false) const noexcept { return {end_.time, false, last_.normal, warm_, turns, false, last_.slack}; }
+
+  const MovingTool<Tool>& moving_;
+  const PassedTriangle<Scalar>& triangle_;
+  const Frame &start_, &end_;
+  const Clearance<Scalar>& clearance_;
+  int& work_;
+  WitnessFeatures warm_;  // of the last query
+  bool is_known_;  // a plane that separates at the start, from before
+  bool touches_ = false;  // at the start
+  bool rolls_ = false;  // edge over edge, so that planes turn
+  Plane plane_, last_;  // at hand, which separates at the time reached; at the end
+  Scalar required_ = Scalar(0);  // of the slack at the start [m]
+  Scalar part_from_start_ = Scalar(0);  // that a known plane holds for
+  Scalar resolution_ = Scalar(0);  // [m]
+  Scalar beyond_ = Scalar(0);  // the time from which no turning plane is known to hold
+};
+
 }  // namespace detail
 
 /// Certifies the motion past one triangle up to `end.time`, or up to where it may be blocked.
@@ -127,98 +284,7 @@ FEELER_FLATTEN Passage<typename Tool::Scalar> pass(const MovingTool<Tool>& movin
                                                    const Clearance<typename Tool::Scalar>& clearance, int& work,
                                                    typename Tool::Scalar enough = std::numeric_limits<typename Tool::Scalar>::infinity(),
                                                    int limit = (std::numeric_limits<int>::max)()) noexcept {
-  using Scalar = typename Tool::Scalar;
-  using Plane = detail::HeldPlane<Scalar>;
-  const Matrix3<Scalar>& corners = triangle.corners;
-  WitnessFeatures warm = triangle.features;
-  // Where shapes overlap only the sign matters, unless they touched from the start: then the least overlap decides.
-  const auto query = [&](const MotionFrame<Scalar>& frame, bool touches) {
-    ++work;
-    const Matrix3<Scalar> in_tool = moving.in_tool(corners, frame);
-    auto closest = gjk(moving.tool(), in_tool, warm, clearance.touching);
-    warm = closest.features;
-    if (closest.is_touching) {
-      // The core of a swept tool touches nothing before the tool is in it by the radius.
-      if (SweptTool<Tool> || !touches) return Plane{Vector3<Scalar>::Zero(), -std::numeric_limits<Scalar>::infinity()};
-      if constexpr (!SweptTool<Tool>) closest = separation_of_touching(moving.tool(), in_tool, closest, clearance.allowance);
-    }
-    return Plane{frame.rotation * closest.normal, closest.distance};
-  };
-  const auto slack_at = [&](const Vector3<Scalar>& normal, const MotionFrame<Scalar>& frame) {
-    return moving.lowest(normal, frame) - highest_corner(corners, normal);
-  };
-  const bool is_known = triangle.normal.squaredNorm() > Scalar(0);
-  Plane plane{triangle.normal, is_known ? slack_at(triangle.normal, start) : Scalar(0)};
-  bool touches = is_known && plane.slack < 2 * clearance.touching;
-  Scalar part_from_start(0);  // over which a known plane holds
-  if (is_known) {
-    part_from_start = detail::held_part(moving, corners, plane, start, end, clearance.required(plane.slack), true).part;
-    if (!(part_from_start < Scalar(1))) return {end.time, false, plane.normal, warm};
-  }
-  if (is_known && triangle.last_normal.squaredNorm() > Scalar(0)) {
-    const Plane guess{triangle.last_normal, slack_at(triangle.last_normal, end)};
-    if (detail::turning_plane_holds(moving, corners, plane, start, guess, end, clearance.required(plane.slack)))
-      return {end.time, false, guess.normal, warm};
-  }
-  Plane last = query(end, touches);
-  if (last.slack > -std::numeric_limits<Scalar>::infinity()) {
-    const Scalar known = (std::max)(slack_at(last.normal, start), is_known ? plane.slack : Scalar(0));
-    const Scalar required = clearance.required((std::max)(known, Scalar(0)));
-    const auto held = detail::held_part(moving, corners, last, end, start, required, false);
-    if (!(held.part < Scalar(1))) return {end.time, false, last.normal, warm, held.turns, false, last.slack};
-  }
-  if (!is_known) {
-    plane = query(start, true);
-    touches = plane.slack < 2 * clearance.touching;
-    if (touches) last = query(end, true);
-  }
-  const Scalar required = clearance.required(plane.slack);
-  if (detail::turning_plane_holds(moving, corners, plane, start, last, end, required))
-    return {end.time, false, last.normal, warm, false, false, last.slack};
-  const Scalar length = moving.length() * end.time;
-  const Scalar resolution = triangle.is_exact ? clearance.resolution : (std::max)(clearance.resolution, length / 16);
-  const int maximum_steps = triangle.is_exact ? 24 : 10;
-  MotionFrame<Scalar> frame = start;
-  Scalar beyond = end.time;  // to where no turning plane is known to hold
-  bool rolls = false;
-  const auto is_late = [&](Scalar time) { return last.slack < required && 4 * (enough - time) * moving.length() <= resolution; };
-  bool is_cut = false;
-  for (int step = 0; step < maximum_steps; ++step) {
-    is_cut = work >= limit;
-    if (is_cut) break;
-    const Scalar whole = end.time - frame.time;
-    const bool is_found = is_known && step == 0;
-    Scalar advance = whole * (is_found ? part_from_start : detail::held_part(moving, corners, plane, frame, end, required, true).part);
-    if (advance < whole && 3 * advance < whole) {
-      // A sagitta falls with the square of the duration: over a shorter part the same plane holds for longer.
-      const Scalar shorter = (std::max)(3 * advance, whole / 8);
-      const MotionFrame<Scalar> near_end = moving.frame_at(frame.time + shorter);
-      advance = (std::max)(advance, shorter * detail::held_part(moving, corners, plane, frame, near_end, required, true).part);
-    }
-    if (!(advance < whole)) return {end.time, false, last.normal, warm, false, false, last.slack};
-    const Scalar half = (beyond - frame.time) / 2;
-    if (rolls && half > advance && half * moving.length() >= resolution) {
-      const MotionFrame<Scalar> middle = moving.frame_at(frame.time + half);
-      const Plane next = query(middle, touches);
-      if (!detail::turning_plane_holds(moving, corners, plane, frame, next, middle, required)) {
-        beyond = middle.time;
-        continue;
-      }
-      frame = middle;
-      plane = next;
-    } else {
-      const bool is_short = advance * moving.length() < resolution;
-      frame = moving.frame_at(frame.time + advance);
-      if (is_short || is_late(frame.time)) break;
-      const Plane next = query(frame, true);
-      // The plane gave out, yet the shapes are as far apart: it turns, and a fixed one would follow in tiny steps.
-      rolls = triangle.is_exact && 2 * (next.slack - required) > plane.slack - required;
-      plane = next;
-    }
-    if (detail::turning_plane_holds(moving, corners, plane, frame, last, end, required))
-      return {end.time, false, last.normal, warm, false, false, last.slack};
-  }
-  return {.time = frame.time, .is_blocked = true, .normal = plane.normal, .features = warm, .is_cut = is_cut};
+  return detail::TrianglePassage<Tool>(moving, triangle, start, end, clearance, work).certify(enough, limit);
 }
 
 }  // namespace feeler

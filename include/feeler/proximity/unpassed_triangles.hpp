@@ -41,7 +41,54 @@ struct TraversalPlace {
       unpassed;  // places in leaves; one more is written, and not counted
   std::size_t unpassed_count = 0, next = 0;  // of them, and the first that was not visited
   int uncounted = 0;                         // nodes and leaves since the work last grew
+
+  /// The nodes or leaves that are next in order.
+  /// @param work  grows by the work done
+  std::span<const std::int32_t> take(int& work) noexcept {
+    const std::span<const std::int32_t> taken = waiting.take();
+    uncounted += int(taken.size());
+    work += uncounted / nodes_per_work;
+    uncounted %= nodes_per_work;
+    return taken;
+  }
 };
+
+namespace detail {
+
+/// Puts those children of nodes in order that no plane passes.
+template <class Scalar, class Planes, class PlaneCount, class Order, class Sift>
+void open_nodes(const Bvh<Scalar>& bvh, std::span<const std::int32_t> entries, Planes& planes, const PlaneCount& plane_count, const Sift& sift,
+                Order& waiting) noexcept {
+  const auto node_of = [&](std::int32_t entry) { return &bvh.nodes()[std::size_t(entry)]; };
+  in_groups_of<Order::side_by_side>(entries, node_of, [&](const auto& nodes) {
+    auto passed = planes.passed(nodes, plane_count());
+    for (std::size_t i = 0; i < nodes.size(); ++i) {
+      sift(int(nodes[i] - bvh.nodes().data()), passed[i]);
+      waiting.push_children(*nodes[i], passed[i]);
+    }
+  });
+}
+
+/// Notes the triangles of leaves that no plane passes, to be visited next.
+template <class Scalar, class Planes, class PlaneCount, class Order>
+void open_leaves(const Bvh<Scalar>& bvh, std::span<const std::int32_t> entries, Planes& planes, const PlaneCount& plane_count,
+                 TraversalPlace<Order>& place) noexcept {
+  std::size_t count = 0;
+  const auto leaf_of = [&](std::int32_t entry) { return &bvh.leaves()[std::size_t(~entry)]; };
+  in_groups_of<Order::side_by_side>(entries, leaf_of, [&](const auto& leaves) {
+    const auto passed = planes.passed(leaves, plane_count());
+    for (std::size_t i = 0; i < leaves.size(); ++i) {
+      for (std::size_t lane = 0; lane < passed[i].size(); ++lane) {
+        place.unpassed[count] = std::int32_t((leaves[i] - bvh.leaves().data()) * BvhLeaf::width) + std::int32_t(lane);
+        count += std::size_t(passed[i][lane] == 0) & std::size_t(leaves[i]->triangle[lane] >= 0);
+      }
+    }
+  });
+  place.unpassed_count = count;
+  place.next = 0;
+}
+
+}  // namespace detail
 
 /// Calls `visit(leaf, lane)` for every triangle that none of the planes passes, and `may_go_on()` before, until one call is false; true when it came
 /// to the end. Both may change the planes. Called again with the same `place` it goes on there: with the triangle that it ended at.
@@ -61,34 +108,12 @@ bool visit_unpassed(const Bvh<Scalar>& bvh, Planes& planes, const PlaneCount& pl
     }
     if (place.waiting.empty()) return true;
     if (!may_go_on()) return false;
-    const std::span<const std::int32_t> next = place.waiting.take();
-    place.uncounted += int(next.size());
-    work += place.uncounted / nodes_per_work;
-    place.uncounted %= nodes_per_work;
-    if (!BvhNode::is_leaf(next.front())) {
-      const auto node_of = [&](std::int32_t entry) { return &bvh.nodes()[std::size_t(entry)]; };
-      detail::in_groups_of<Order::side_by_side>(next, node_of, [&](const auto& nodes) {
-        auto passed = planes.passed(nodes, plane_count());
-        for (std::size_t i = 0; i < nodes.size(); ++i) {
-          sift(int(nodes[i] - bvh.nodes().data()), passed[i]);
-          place.waiting.push_children(*nodes[i], passed[i]);
-        }
-      });
-      continue;
+    const std::span<const std::int32_t> next = place.take(work);
+    if (BvhNode::is_leaf(next.front())) {
+      detail::open_leaves(bvh, next, planes, plane_count, place);
+    } else {
+      detail::open_nodes(bvh, next, planes, plane_count, sift, place.waiting);
     }
-    std::size_t count = 0;
-    const auto leaf_of = [&](std::int32_t entry) { return &bvh.leaves()[std::size_t(~entry)]; };
-    detail::in_groups_of<Order::side_by_side>(next, leaf_of, [&](const auto& leaves) {
-      const auto passed = planes.passed(leaves, plane_count());
-      for (std::size_t i = 0; i < leaves.size(); ++i) {
-        for (std::size_t lane = 0; lane < passed[i].size(); ++lane) {
-          place.unpassed[count] = std::int32_t((leaves[i] - bvh.leaves().data()) * BvhLeaf::width) + std::int32_t(lane);
-          count += std::size_t(passed[i][lane] == 0) & std::size_t(leaves[i]->triangle[lane] >= 0);
-        }
-      }
-    });
-    place.unpassed_count = count;
-    place.next = 0;
   }
 }
 

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <cstddef>
 
 #include "feeler/core/lanes.hpp"
@@ -11,6 +10,7 @@
 #include "feeler/core/single_lanes.hpp"
 #include "feeler/core/unfused_product.hpp"
 #include "feeler/qp/dual/inverse_hessian.hpp"
+#include "feeler/qp/dual/orthonormal_basis.hpp"
 #include "feeler/qp/dual/six.hpp"
 
 namespace feeler::detail {
@@ -142,65 +142,20 @@ class ActiveOperators {
   /// Computes both operators afresh by an orthogonal factor of the active rows: slower, and as good as the
   /// scalar allows.
   ///
-  /// With H⁻¹ = WᵀW and W·N = QR, N* = R⁻¹QᵀW and P = (YᵀW)ᵀ(YᵀW), Y an orthonormal complement of Q. Columns
-  /// are made orthogonal twice (W. Kahan, in B. Parlett, "The Symmetric Eigenvalue Problem", section 6-9).
+  /// With H⁻¹ = WᵀW and W·N = QR, N* = R⁻¹QᵀW and P = (YᵀW)ᵀ(YᵀW), Y an orthonormal complement of Q.
   void rebuild(const InverseHessian<Scalar>& inverse) noexcept {
-    using std::sqrt;
     if (used_ == 0) return reset(inverse);
     is_behind_ = false;
-    duals_ = {};
     const SixBySix<Scalar> w = inverse.root();
-    const auto root_times = [&w](const Six<Scalar>& v) { return multiply(w, v); };
-    const auto transposed_root_times = [&w](const Six<Scalar>& v) {
-      Six<Scalar> image{};
-      for (std::size_t j = 0; j < 6; ++j) {
-        for (std::size_t k = 0; k < 6; ++k) image[k] += product(w[j][k], v[j]);
-      }
-      return image;
-    };
-    SixBySix<Scalar> q{}, r{};
-    const std::size_t count = index(used_);
-    const auto orthogonalise = [&q](Six<Scalar>& v, Six<Scalar>& coefficients, std::size_t against) {
-      for (int pass = 0; pass < 2; ++pass) {
-        for (std::size_t i = 0; i < against; ++i) {
-          const Scalar part = dot(q[i], v);
-          coefficients[i] += part;
-          for (std::size_t j = 0; j < 6; ++j) v[j] -= product(part, q[i][j]);
-        }
-      }
-      return Scalar(sqrt(dot(v, v)));
-    };
-    const auto keep = [&q](const Six<Scalar>& v, const Scalar& length, std::size_t at) {
-      for (std::size_t j = 0; j < 6; ++j) q[at][j] = length > Scalar(0) ? Scalar(v[j] / length) : Scalar(0);
-    };
-    for (std::size_t i = 0; i < count; ++i) {
-      Six<Scalar> v = root_times(normals_[i]);
-      r[i][i] = orthogonalise(v, r[i], i);
-      keep(v, r[i][i], i);
+    OrthonormalBasis<Scalar> basis;
+    SixBySix<Scalar> r{};  // by columns
+    for (std::size_t i = 0; i < index(used_); ++i) {
+      Six<Scalar> v = multiply(w, normals_[i]);
+      r[i][i] = basis.orthogonalise(v, r[i]);
+      basis.append(v, r[i][i]);
     }
-    for (std::size_t i = count; i-- > 0;) {
-      Six<Scalar> row = transposed_root_times(q[i]);
-      for (std::size_t k = i + 1; k < count; ++k) {
-        for (std::size_t j = 0; j < 6; ++j) row[j] -= product(r[k][i], duals_[j][k]);
-      }
-      for (std::size_t j = 0; j < 6; ++j) duals_[j][i] = row[j] / r[i][i];
-    }
-    for (Column& column : projector_) column = {};
-    for (std::size_t at = count; at < 6; ++at) {
-      Six<Scalar> longest{};
-      Scalar length(0);
-      for (std::size_t axis = 0; axis < 6; ++axis) {
-        Six<Scalar> v{}, unused{};
-        v[axis] = Scalar(1);
-        const Scalar left = orthogonalise(v, unused, at);
-        if (left > length) length = left, longest = v;
-      }
-      keep(longest, length, at);
-      const Six<Scalar> y = transposed_root_times(q[at]);
-      for (std::size_t j = 0; j < 6; ++j) {
-        for (std::size_t i = 0; i < 6; ++i) projector_[j][i] += product(y[i], y[j]);
-      }
-    }
+    rebuild_duals(w, basis, r);
+    rebuild_projector(w, basis);
   }
 
  private:
@@ -208,6 +163,42 @@ class ActiveOperators {
   using Columns = std::array<Column, 6>;
 
   static std::size_t index(int i) noexcept { return std::size_t(i); }
+
+  /// Wᵀ·v
+  static Six<Scalar> multiply_transposed(const SixBySix<Scalar>& w, const Six<Scalar>& v) noexcept {
+    Six<Scalar> image{};
+    for (std::size_t j = 0; j < 6; ++j) {
+      for (std::size_t k = 0; k < 6; ++k) image[k] += product(w[j][k], v[j]);
+    }
+    return image;
+  }
+
+  /// N* = R⁻¹QᵀW, by back substitution.
+  /// @param r  by columns, upper triangular
+  void rebuild_duals(const SixBySix<Scalar>& w, const OrthonormalBasis<Scalar>& q, const SixBySix<Scalar>& r) noexcept {
+    duals_ = {};
+    const std::size_t count = index(used_);
+    for (std::size_t i = count; i-- > 0;) {
+      Six<Scalar> row = multiply_transposed(w, q[i]);
+      for (std::size_t k = i + 1; k < count; ++k) {
+        for (std::size_t j = 0; j < 6; ++j) row[j] -= product(r[k][i], duals_[j][k]);
+      }
+      for (std::size_t j = 0; j < 6; ++j) duals_[j][i] = row[j] / r[i][i];
+    }
+  }
+
+  /// P = (YᵀW)ᵀ(YᵀW).
+  /// @param basis  Q, to which Y is appended
+  void rebuild_projector(const SixBySix<Scalar>& w, OrthonormalBasis<Scalar>& basis) noexcept {
+    for (Column& column : projector_) column = {};
+    while (!basis.is_complete()) {
+      basis.append_farthest_axis();
+      const Six<Scalar> y = multiply_transposed(w, basis.last());
+      for (std::size_t j = 0; j < 6; ++j) {
+        for (std::size_t i = 0; i < 6; ++i) projector_[j][i] += product(y[i], y[j]);
+      }
+    }
+  }
 
   /// Writes P where nothing is active and H⁻¹ is diagonal.
   void spread_diagonal() noexcept {

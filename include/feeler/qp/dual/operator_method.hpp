@@ -103,11 +103,10 @@ class OperatorMethod {
     accepted_ = Scalar(1 - share) * tolerance_;
   }
 
+  /// The method itself.
+  /// @param start  rows to make active first
   Outcome run(const Problem& problem, const WarmStart& start, Solution& solution) noexcept {
-    pair_.reset(*inverse_, *gradient_, is_careful_);
-    for (const int row : start.rows) assume(problem, row);
-    pair_.drop_negative();
-
+    start_pair(problem, start);
     Pricing pricing{.is_weighed = pair_.rows().size() == 0};
     int entering = -1;
     if (pricing.is_weighed) {
@@ -120,15 +119,31 @@ class OperatorMethod {
       if (entry != Entry::done) return entry == Entry::infeasible ? Outcome::infeasible : Outcome::in_doubt;
       ++solution.iterations;
       const Scalar rounding = pricing.is_strict ? rounding_at(pair_.x()) : Scalar(0);
-      const bool is_violated = pricing.is_strict ? scan_.is_violated(problem, bounds_, pair_.x(), accepted_, rounding)
-                                                 : scan_.is_violated(problem, bounds_, pair_.x(), accepted_);
+      const bool is_violated = is_any_violated(problem, rounding, pricing);
       entering = is_violated ? price(problem, rounding, pricing) : -1;
-      if (entering < 0 && (pair_.rows().size() == 0 || !refine(problem))) {
-        const bool are_numbers = !is_violated || !scan_.is_violated(problem, bounds_, pair_.x(), std::numeric_limits<Scalar>::infinity());
-        return are_numbers ? Outcome::optimal : Outcome::in_doubt;
-      }
+      if (entering < 0 && (pair_.rows().size() == 0 || !refine(problem))) return conclude_optimum(problem, is_violated);
     }
     return Outcome::in_doubt;
+  }
+
+  /// The unconstrained minimum, or that on known rows, as long as they hold.
+  [[gnu::always_inline]] inline void start_pair(const Problem& problem, const WarmStart& start) noexcept {
+    pair_.reset(*inverse_, *gradient_, is_careful_);
+    for (const int row : start.rows) assume(problem, row);
+    pair_.drop_negative();
+  }
+
+  /// Whether a fresh look at x finds a violated row.
+  /// @param rounding  of x, where that is excused [m]
+  [[gnu::always_inline]] inline bool is_any_violated(const Problem& problem, const Scalar& rounding, const Pricing& pricing) const noexcept {
+    return pricing.is_strict ? scan_.is_violated(problem, bounds_, pair_.x(), accepted_, rounding)
+                             : scan_.is_violated(problem, bounds_, pair_.x(), accepted_);
+  }
+
+  /// Nothing is left to enter or to refine: an optimum, unless rows have no value at x.
+  [[gnu::always_inline]] inline Outcome conclude_optimum(const Problem& problem, bool is_violated) const noexcept {
+    const bool are_numbers = !is_violated || !scan_.is_violated(problem, bounds_, pair_.x(), std::numeric_limits<Scalar>::infinity());
+    return are_numbers ? Outcome::optimal : Outcome::in_doubt;
   }
 
   /// Makes a row active, and those that the scan names after it; `done` where there is none any more.

@@ -58,47 +58,18 @@ class ElasticRows {
   int solve(Solver& solver, QpProblem<Scalar>& problem, Scalar price, Scalar least, int most_solves, const WarmStart& start,
             QpSolution<Scalar>& solution) noexcept {
     const int maximum_solves = (std::min)(most_solves, 24);
-    const Scalar most = relaxation_at_rest();
-    Scalar low(0), high = most;  // the relaxation lies between
-    bool is_least = true;  // with less than the one at hand there is no solution
-    relaxation_ = Scalar(0);
+    Search search{.price = price, .least = least, .most = relaxation_at_rest()};
+    begin_again(search);
     for (int solves = 1; solves <= maximum_solves; ++solves) {
-      if (solves == maximum_solves) {
-        relaxation_ = high;
-        for (int k = 0; k < size_; ++k) rows_[index(k)].is_relaxed = true;
-      }
+      const bool is_last = solves == maximum_solves;
+      if (is_last) relax_all(search.high);
       load(problem);
       const QpStatus status = solves == 1 ? solve_from(solver, problem, start, solution) : solver.solve(problem, solution);
-      if (status == QpStatus::infeasible && solves < maximum_solves) {
-        const bool joins = relax_like(problem, solution.conflict);
-        if (joins) begin_again(low, high, most);
-        if (!joins && !(relaxation_ < high)) return 0;
-        low = relaxation_;
-        relaxation_ = (std::min)(low + (std::max)(lack(problem, solution), joins ? Scalar(0) : least), high);
-        is_least = true;
-        continue;
-      }
-      if (status != QpStatus::optimal) return 0;
-      const Scalar sum = sum_of_soft(solution);
-      if (sum <= price) {
-        const bool is_close = sum >= price - price / 1000 || !(relaxation_ - low > (std::max)(least, most / 1000));
-        if (is_least || is_close || solves == maximum_solves) return solves;
-        high = relaxation_;
+      if (status == QpStatus::optimal) {
+        if (is_last || !follow_multipliers(problem, solution, search)) return solves;
       } else {
-        bool joins = false;
-        for (const auto& active : solution.active) joins = relax(active.row) || joins;
-        if (joins) {
-          begin_again(low, high, most);
-          is_least = true;
-          continue;
-        }
-        if (!(relaxation_ < high)) return solves;
-        low = relaxation_;
+        if (is_last || status != QpStatus::infeasible || !resolve_conflict(problem, solution, search)) return 0;
       }
-      // Where the same rows stay active the next sum is the price; else in the middle of what is known.
-      is_least = false;
-      const Scalar next = sum > price ? low + (std::max)((sum - price) / fall_of_sum(problem, solution), least) : high;
-      relaxation_ = next < high ? next : (low + high) / 2;
     }
     return 0;
   }
@@ -111,6 +82,14 @@ class ElasticRows {
   struct Row {
     Scalar soft, hard;
     bool is_relaxed;
+  };
+
+  /// The search for the least relaxation that will do.
+  struct Search {
+    Scalar price, least;  // as `solve` has them
+    Scalar most;  // that may be needed [m]
+    Scalar low = Scalar(0), high = Scalar(0);  // the relaxation lies between [m]
+    bool is_least = true;  // with less than the one at hand there is no solution
   };
 
   static std::size_t index(int k) noexcept { return std::size_t(k); }
@@ -133,12 +112,61 @@ class ElasticRows {
   void load(QpProblem<Scalar>& problem) const noexcept {
     for (int k = 0; k < size_; ++k) problem.bounds[index(k)] = bound(k);
   }
-  /// More rows are relaxed: less may do.
-  void begin_again(Scalar& low, Scalar& high, Scalar most) noexcept {
-    relaxation_ = low = Scalar(0);
-    high = most;
+  /// At the start, and where more rows are relaxed, so that less may do.
+  void begin_again(Search& search) noexcept {
+    relaxation_ = search.low = Scalar(0);
+    search.high = search.most;
+    search.is_least = true;
   }
   bool relax(int k) noexcept { return !std::exchange(rows_[index(k)].is_relaxed, true); }
+  void relax_all(Scalar relaxation) noexcept {
+    relaxation_ = relaxation;
+    for (int k = 0; k < size_; ++k) rows_[index(k)].is_relaxed = true;
+  }
+
+  /// Where rows contradict each other, relaxes more rows, or the relaxed ones by more; false where neither is left to do.
+  bool resolve_conflict(const QpProblem<Scalar>& problem, const QpSolution<Scalar>& solution, Search& search) noexcept {
+    const bool joins = relax_like(problem, solution.conflict);
+    if (joins) begin_again(search);
+    if (!joins && !(relaxation_ < search.high)) return false;
+    search.low = relaxation_;
+    relaxation_ = (std::min)(search.low + (std::max)(lack(problem, solution), joins ? Scalar(0) : search.least), search.high);
+    search.is_least = true;
+    return true;
+  }
+
+  /// Where the multipliers of an optimum tell that less will do, or that more is cheaper, chooses what to solve with next; false where neither is so.
+  bool follow_multipliers(const QpProblem<Scalar>& problem, const QpSolution<Scalar>& solution, Search& search) noexcept {
+    const Scalar sum = sum_of_soft(solution);
+    if (sum <= search.price) {
+      if (search.is_least || is_close(sum, search)) return false;
+      search.high = relaxation_;
+    } else {
+      if (relax_active(solution)) {
+        begin_again(search);
+        return true;
+      }
+      if (!(relaxation_ < search.high)) return false;
+      search.low = relaxation_;
+    }
+    // Where the same rows stay active the next sum is the price; else in the middle of what is known.
+    search.is_least = false;
+    const Scalar next =
+        sum > search.price ? search.low + (std::max)((sum - search.price) / fall_of_sum(problem, solution), search.least) : search.high;
+    relaxation_ = next < search.high ? next : (search.low + search.high) / 2;
+    return true;
+  }
+  /// Whether less relaxation than that at hand gains next to nothing.
+  /// @param sum  of the multipliers of soft rows, at most the price
+  bool is_close(Scalar sum, const Search& search) const noexcept {
+    return sum >= search.price - search.price / 1000 || !(relaxation_ - search.low > (std::max)(search.least, search.most / 1000));
+  }
+  /// Relaxes the rows that are active; false where all of them are relaxed.
+  bool relax_active(const QpSolution<Scalar>& solution) noexcept {
+    bool joins = false;
+    for (const auto& active : solution.active) joins = relax(active.row) || joins;
+    return joins;
+  }
   /// Relaxes rows, those that are parallel to one of them, and those that a step of zero leaves short.
   template <class List>
   bool relax_like(const QpProblem<Scalar>& problem, const List& list) noexcept {
