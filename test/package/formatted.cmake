@@ -1,0 +1,11 @@
+# Fails, and says where, if a source file is not as clang-format would write it. usage: cmake -DCLANG_FORMAT=program -DSOURCE_DIR=tree -P formatted.cmake
+set(sources)
+foreach(folder include device bench test docs)
+  file(GLOB_RECURSE found ${SOURCE_DIR}/${folder}/*.hpp ${SOURCE_DIR}/${folder}/*.cpp)
+  list(APPEND sources ${found})
+endforeach()
+list(FILTER sources EXCLUDE REGEX "/node_modules/")
+execute_process(COMMAND ${CLANG_FORMAT} --style=file --dry-run -Werror ${sources} RESULT_VARIABLE result ERROR_VARIABLE complaints)
+if(NOT result EQUAL 0)
+  message(FATAL_ERROR "${complaints}\nRun: clang-format-19 -i <files>")
+endif()
