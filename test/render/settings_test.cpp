@@ -275,4 +275,22 @@ BOOST_AUTO_TEST_CASE(poses_of_float_are_as_far_from_the_object_as_their_rounding
   }
 }
 
+BOOST_AUTO_TEST_CASE(a_tool_comes_to_rest_at_every_margin_that_is_taken) {
+  const TriangleMesh<double> object(wall_at(0.0), wall_triangles);
+  const Box<double> tool({0.01, 0.006, 0.004});
+  for (const double margin : {1e-9, 1e-7, 1e-6, 1e-5, 3e-5, 1e-4, 1e-3}) {
+    Settings<double> settings;
+    settings.margin = margin;
+    HapticRenderer renderer(object, tool, settings);
+    BOOST_TEST_REQUIRE((renderer.reset({{0.03, 0, 0}, Quaternion<double>::Identity()}) == Status::converged));
+    const Pose<double> hand{{-0.005, 0.002, 0.01}, exp_rotation<double>({0.3, 2, 0.1})};
+    for (int i = 0; i < 50; ++i) renderer.update(hand);
+    const auto& tick = renderer.update(hand);
+    BOOST_TEST(tick.converged());
+    double nearest = 1;
+    for (int k = 0; k < 8; ++k) nearest = std::min(nearest, (tick.graphic_pose * tool.vertex(k)).x());
+    BOOST_TEST(std::abs(nearest - margin) < 1e-10, "at " << nearest << " m, not at the margin of " << margin);
+  }
+}
+
 BOOST_AUTO_TEST_SUITE_END()

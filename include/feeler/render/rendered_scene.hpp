@@ -113,6 +113,9 @@ class RenderedScene {
   /// What is nearer touches: any motion may meet it [m].
   Scalar touching() const noexcept { return 4 * margin_; }
   Scalar trust_radius() const noexcept { return Scalar(settings_.trust_radius); }
+  /// Features up to this height above a triangle give rows, those with a gap up to a quarter of it: of a step, and twice the margin at least, or none
+  /// would keep it [m].
+  Scalar patch_height() const noexcept { return (std::max)(trust_radius() / 8, 8 * margin_); }
 
   /// Pose of the reference point, from the pose of the tool frame.
   Pose<Scalar> reference_pose(const Pose<MeshScalar>& tool_pose) const noexcept {

@@ -233,7 +233,7 @@ class Linearisation {
     const Matrix3<Scalar> corners = separation_.corners_in_tool(scene, pair);
     const auto closest = separation_.query(scene, pair, corners, tick.work);
     ContactPatch<Piece, MeshScalar> patch(scene.piece(pair.piece), scene.incidence(pair.piece), scene.object(), separation_.axes(), scene.reference(),
-                                          scene.trust_radius() / 8, assumes_valleys_, near_vertices_);
+                                          scene.patch_height(), assumes_valleys_, near_vertices_);
     pair.state = patch.find(pair.triangle, corners, closest, pair.keeps_ghost, patch_rows_) ? PairState::repeats : PairState::ghost;
     pair.is_filler = patch.is_filler();
     if (separation_.is_at_start()) pair.is_ghost = pair.state == PairState::ghost;
