@@ -28,10 +28,10 @@ struct Scenery {
 
 /// Free poses about a minimum that are nearer to the hand. A step is tried at random, and again turned so that it lowers the energy.
 std::pair<int, int> search_around(std::mt19937& bits, const Scenery& scenery, const Pose<double>& hand, const NearestPose& minimum) {
-  const auto& [scene, truth, object, pieces] = scenery;
+  const auto& truth = scenery.truth;
   int searched = 0, better = 0;
   // As much less as keeping no distance at all would gain.
-  const Real energy = truth.energy(hand, minimum.pose) - 2 * kept * minimum.force.norm() / scene.stiffness().translational.maxCoeff();
+  const Real energy = truth.energy(hand, minimum.pose) - 2 * kept * minimum.force.norm() / scenery.scene.stiffness().translational.maxCoeff();
   for (int i = 0; i < 40; ++i) {
     const double size = fuzz::magnitude(bits, -9, -4);
     Vector6<Real> step;
@@ -131,7 +131,8 @@ ProofFigures prove_truth(int cells, unsigned seed, const std::vector<std::string
     const std::string name = names[std::size_t(fuzz::below(bits, int(names.size())))];
     if (!made.contains(name)) made.emplace(name, make_scene(name, 1, 0, seed));
     const Scenery& scenery = made.at(name);
-    const auto& [scene, truth, object, pieces] = scenery;
+    const StudyScene& scene = scenery.scene;
+    const Truth& truth = scenery.truth;
     Cell cell{.scene = name, .budget = 1000000, .iterations = 32};
     const auto player = rendering("double").make(scene, cell);
     player->reset(scene.start);

@@ -1,9 +1,7 @@
 #include "study/truth.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
-#include <set>
 
 #include <Eigen/Dense>
 

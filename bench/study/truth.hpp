@@ -22,8 +22,8 @@ struct NearestPose {
 ///
 /// From a free pose near the minimum, sequential quadratic programming over all pairs of features that are near finds which of them hold the tool; then
 /// Newton's method on their Karush-Kuhn-Tucker conditions, its derivatives by differences in 50 digits, for smaller and smaller distances: what is left is
-/// the rigid problem. The answer is checked against every triangle, none of which may cut into the tool, the signs of the multipliers and the second-order condition (Nocedal and
-/// Wright, "Numerical Optimization", theorems 12.1 and 12.6); else there is none.
+/// the rigid problem. The answer is checked against every triangle, none of which may cut into the tool, the signs of the multipliers and the
+/// second-order condition (Nocedal and Wright, "Numerical Optimization", theorems 12.1 and 12.6); else there is none.
 class Truth {
  public:
   explicit Truth(const StudyScene& scene);

@@ -35,6 +35,16 @@ typename Tool::Scalar separation_along(const Tool& tool, const Matrix3<typename 
   return separation_along(tool.core(), triangle, unit_normal) - tool.swept_radius();
 }
 
+/// Takes a normal, or the opposite one, where the tool is farther along it by more than `least` [m].
+template <ConvexTool Tool>
+void take_better_axis(const Tool& tool, const Matrix3<typename Tool::Scalar>& triangle, const Vector3<typename Tool::Scalar>& normal,
+                      typename Tool::Scalar least, SeparatingAxis<typename Tool::Scalar>& best) noexcept {
+  for (const Vector3<typename Tool::Scalar>& n : {normal, Vector3<typename Tool::Scalar>(-normal)}) {
+    const typename Tool::Scalar distance = separation_along(tool, triangle, n);
+    if (distance > best.distance + least) best = {n, distance};
+  }
+}
+
 /// Maximises the separation over the face normals of the Minkowski difference: the triangle's normal, the tool's face normals and the
 /// cross products of their edges. Exact for shapes that touch or overlap (the separating axis theorem); for shapes apart it
 /// may fall short of the distance. The first axis along which they overlap by no more than is accepted is taken, faces before edges, so that
@@ -52,10 +62,7 @@ SeparatingAxis<typename Tool::Scalar> best_separating_axis(const Tool& tool, con
   const Scalar enough = -(std::max)(accepted, 4 * epsilon * size);
   Scalar handicap = Scalar(0);
   const auto attempt = [&](const Vector3<Scalar>& normal) {
-    for (const Vector3<Scalar>& n : {normal, Vector3<Scalar>(-normal)}) {
-      const Scalar distance = separation_along(tool, triangle, n);
-      if (distance > best.distance + handicap) best = {n, distance};
-    }
+    take_better_axis(tool, triangle, normal, handicap, best);
     return best.distance >= enough;
   };
   std::array<Vector3<Scalar>, 3> edges;

@@ -123,9 +123,6 @@ class ClosestFeaturesFollower {
 
   auto& linearisation() noexcept { return search_.linearisation(); }
 
-  /// What is farther away cannot stop the next step [m].
-  Scalar reach_of_step(const Scene& scene) const noexcept { return limits_.trust() + scene.margin(); }
-
   /// Turns that do not matter follow the device at once.
   void turn_idly(const Scene& scene, Tick<MeshScalar>& tick) noexcept {
     if constexpr (IdleTurns<typename Scene::Tool>::legs > 0) {
@@ -219,7 +216,7 @@ class ClosestFeaturesFollower {
     const int begun = tick.work;
     const auto result = goes_on ? certificate_.go_on(scene, tick.work, budget_.limit(), linearisation().pairs())
                                 : certificate_.certify(scene, pose_, search_.motion().motion, tick.work, budget_.limit(), linearisation().pairs(),
-                                                       reach_of_step(scene));
+                                                       Search::reach_of_step(scene, limits_));
     it.work += tick.work - begun;
     if (result.is_exhausted) return Outcome::suspended;
     stage_ = Stage::starting;
@@ -244,8 +241,9 @@ class ClosestFeaturesFollower {
     Iteration& it = iteration_;
     const auto& pairs = linearisation().pairs();
     const int begun = tick.work;
-    const NoticedTriangles noticed = goes_on ? certificate_.go_on_noticing(scene, tick.work, budget_.limit(), pairs)
-                                             : certificate_.notice(scene, it.end, tick.work, budget_.limit(), pairs, reach_of_step(scene));
+    const NoticedTriangles noticed =
+        goes_on ? certificate_.go_on_noticing(scene, tick.work, budget_.limit(), pairs)
+                : certificate_.notice(scene, it.end, tick.work, budget_.limit(), pairs, Search::reach_of_step(scene, limits_));
     it.work += tick.work - begun;
     const bool is_done = !noticed.is_exhausted && !take_in_noticed(linearisation().pairs(), scene, noticed);
     const bool is_home = is_done && search_.motion().is_home;

@@ -13,6 +13,7 @@
 #include "feeler/core/status.hpp"
 #include "feeler/object/triangle_normal.hpp"
 #include "feeler/object/triangle_query.hpp"
+#include "feeler/proximity/separating_axes.hpp"
 #include "feeler/proximity/separation.hpp"
 #include "feeler/render/rendered_scene.hpp"
 #include "feeler/render/tick.hpp"
@@ -154,20 +155,14 @@ class FreePoseSearch {
       closest = separation_of_touching(tool, corners, closest);
       return;
     }
-    closest.distance = -std::numeric_limits<Scalar>::infinity();
-    const auto attempt = [&](const Vector3<Scalar>& normal) {
-      for (const Vector3<Scalar>& n : {normal, Vector3<Scalar>(-normal)}) {
-        const Scalar distance = separation_along(tool, corners, n);
-        if (distance <= closest.distance) continue;
-        closest.distance = distance;
-        closest.normal = n;
-      }
-    };
+    SeparatingAxis<Scalar> best;
     const Vector3<Scalar> normal = triangle_normal<Scalar>(corners.col(0), corners.col(1), corners.col(2));
-    if (!normal.isZero(Scalar(0))) attempt(normal);
+    if (!normal.isZero(Scalar(0))) take_better_axis(core, corners, normal, Scalar(0), best);
     const int stride = core.face_axis_count() / most_axes + 1;
-    for (int i = 0; i < core.face_axis_count(); i += stride) attempt(core.face_axis(i));
-    closest.tool_point = tool.vertex(tool.support(Vector3<Scalar>(-closest.normal)));
+    for (int i = 0; i < core.face_axis_count(); i += stride) take_better_axis(core, corners, core.face_axis(i), Scalar(0), best);
+    closest.normal = best.normal;
+    closest.distance = separation_along(tool, corners, best.normal);
+    closest.tool_point = tool.vertex(tool.support(Vector3<Scalar>(-best.normal)));
   }
   template <class Piece>
   static const auto& core_of(const Piece& tool) noexcept {

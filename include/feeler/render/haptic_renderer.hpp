@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <limits>
 #include <memory>
-#include <optional>
 #include <string>
 
 #include "feeler/core/on_heap.hpp"
@@ -68,7 +67,7 @@ class HapticRenderer {
   /// One tick. The result stays valid until the next call.
   /// @param haptic_pose  pose of the tool frame that the device commands; its quaternion need not be unit
   /// @cost  noexcept; no allocation, lock, clock or I/O; bounded by `Settings::maximum_iterations` and `work_budget`
-  const Tick<Scalar>& update(const Pose<Scalar>& haptic_pose) noexcept { return update_along(haptic_pose, {}); }
+  const Tick<Scalar>& update(const Pose<Scalar>& haptic_pose) noexcept { return update_along(haptic_pose, along_poses()); }
 
   /// One tick with stiffness and metric along other axes than those of the poses, which may be others in each tick: those of a device's base as a turning
   /// object sees it, or those of the hand. All promises of a tick hold; the wrench is `wrench_along` these axes, and `wrench_along_tool` is that of
@@ -86,7 +85,7 @@ class HapticRenderer {
   /// @return the last tick, with the work and the iterations of all, and the path of the last alone
   /// @cost   noexcept; no allocation, lock, clock or I/O; one `update` at least
   const Tick<Scalar>& update_until_converged(const Pose<Scalar>& haptic_pose, int most_work) noexcept {
-    return update_until_converged_along(haptic_pose, {}, most_work);
+    return update_until_converged_along(haptic_pose, along_poses(), most_work);
   }
   /// The same with stiffness and metric along other axes; see `update`.
   const Tick<Scalar>& update_until_converged(const Pose<Scalar>& haptic_pose, const Quaternion<Scalar>& world_from_axes, int most_work) noexcept
@@ -102,11 +101,12 @@ class HapticRenderer {
   const Follower& follower() const noexcept { return state_->follower; }
 
  private:
-  /// Axes of stiffness and metric; unset, those of the poses.
-  using Axes = std::optional<Quaternion<Scalar>>;
+  /// Axes of stiffness and metric that are those of the poses.
+  static Quaternion<Scalar> along_poses() noexcept { return Quaternion<Scalar>::Identity(); }
 
-  const Tick<Scalar>& update_along(const Pose<Scalar>& haptic_pose, const Axes& world_from_axes) noexcept;
-  const Tick<Scalar>& update_until_converged_along(const Pose<Scalar>& haptic_pose, const Axes& world_from_axes, int most_work) noexcept;
+  const Tick<Scalar>& update_along(const Pose<Scalar>& haptic_pose, const Quaternion<Scalar>& world_from_axes) noexcept;
+  const Tick<Scalar>& update_until_converged_along(const Pose<Scalar>& haptic_pose, const Quaternion<Scalar>& world_from_axes,
+                                                   int most_work) noexcept;
   void turn_metric(const Quaternion<Working>& world_from_axes) noexcept;
   bool is_free_at(const Pose<Working>& pose) noexcept;
   bool is_inside_at(const Pose<Working>& pose) const noexcept;
@@ -153,9 +153,8 @@ TickStatus HapticRenderer<ToolType, Solver, Method>::reset(const Pose<Scalar>& p
 
 template <RigidTool ToolType, QpSolver Solver, ContactMethod<ToolType, Solver> Method>
 const Tick<typename ToolType::Scalar>& HapticRenderer<ToolType, Solver, Method>::update_along(const Pose<Scalar>& haptic_pose,
-                                                                                              const Axes& world_from_axes) noexcept {
-  const bool has_axes = !world_from_axes || Pose<Scalar>{.rotation = *world_from_axes}.is_finite();
-  if (!haptic_pose.is_finite() || !has_axes) {
+                                                                                              const Quaternion<Scalar>& world_from_axes) noexcept {
+  if (!haptic_pose.is_finite() || !Pose<Scalar>{.rotation = world_from_axes}.is_finite()) {
     tick_.path.clear();
     tick_.status = TickStatus::not_finite;
     return tick_;
@@ -165,7 +164,7 @@ const Tick<typename ToolType::Scalar>& HapticRenderer<ToolType, Solver, Method>:
     tick_.graphic_pose = haptic_pose.normalized();
     return tick_;
   }
-  turn_metric(world_from_axes ? world_from_axes->template cast<Working>().normalized() : Quaternion<Working>::Identity());
+  turn_metric(world_from_axes.template cast<Working>().normalized());
   const Pose<Working> target = scene_.reference_pose(haptic_pose);
   tick_.work = 0;
   tick_.path.clear();
@@ -175,9 +174,8 @@ const Tick<typename ToolType::Scalar>& HapticRenderer<ToolType, Solver, Method>:
 }
 
 template <RigidTool ToolType, QpSolver Solver, ContactMethod<ToolType, Solver> Method>
-const Tick<typename ToolType::Scalar>& HapticRenderer<ToolType, Solver, Method>::update_until_converged_along(const Pose<Scalar>& haptic_pose,
-                                                                                                              const Axes& world_from_axes,
-                                                                                                              int most_work) noexcept {
+const Tick<typename ToolType::Scalar>& HapticRenderer<ToolType, Solver, Method>::update_until_converged_along(
+    const Pose<Scalar>& haptic_pose, const Quaternion<Scalar>& world_from_axes, int most_work) noexcept {
   int work = update_along(haptic_pose, world_from_axes).work, iterations = tick_.iterations;
   while (tick_.status == TickStatus::unconverged && work <= most_work - settings().work_budget) {
     work += (std::max)(update_along(haptic_pose, world_from_axes).work, 1);

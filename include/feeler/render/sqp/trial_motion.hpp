@@ -44,6 +44,8 @@ class TrialMotionSearch {
 
   /// A step that is short whatever the one before it was [m].
   static Scalar very_short(const Scene& scene) noexcept { return Scalar(scene.settings().step_tolerance) / 50; }
+  /// What is farther away cannot stop the next step [m].
+  static Scalar reach_of_step(const Scene& scene, const StepLimits<Scalar>& limits) noexcept { return limits.trust() + scene.margin(); }
 
   explicit TrialMotionSearch(const Scene& scene) : linearisation_(scene) {}
 
@@ -68,8 +70,7 @@ class TrialMotionSearch {
   /// @param most  linearisations
   bool find(const Scene& scene, int most, const StepLimits<Scalar>& limits, WorkBudget& budget, Tick<MeshScalar>& tick) noexcept {
     for (; rounds_.count < most; ++rounds_.count) {
-      const Scalar reach = limits.trust() + scene.margin();  // what is farther away cannot stop the next step
-      if (!linearise(scene, most > 1, reach, budget, tick)) return false;
+      if (!linearise(scene, most > 1, reach_of_step(scene, limits), budget, tick)) return false;
       const StepTask<Scalar> task{start_, rounds_.pose, scene.idle_turns().motion_between(aim_, rounds_.pose), limits.trust(), motion_.is_capped};
       if (take_step(scene, task, limits, budget, tick)) break;
     }
