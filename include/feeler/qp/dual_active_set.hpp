@@ -15,7 +15,6 @@
 #include "feeler/qp/dual/row_scan.hpp"
 #include "feeler/qp/dual/six.hpp"
 #include "feeler/qp/dual/table_by_columns.hpp"
-#include "feeler/qp/dual/whole_table.hpp"
 #include "feeler/qp/problem.hpp"
 #include "feeler/qp/qp_solver.hpp"
 #include "feeler/qp/solution.hpp"
@@ -65,11 +64,10 @@ class DualActiveSet {
     if ((!known->rows.empty() || problem.row_count == 0) && guess_.find(problem, problem.bounds.data(), *known, inverse_, gradient_) &&
         is_right(problem, *known, 1, solution))
       return QpStatus::optimal;
-    if (problem.row_count <= SomeRows::row_capacity) {
-      const bool is_few = problem.row_count <= FewRows::row_capacity;
-      const Outcome outcome = is_few ? solve_by_table(few_, problem, solution) : solve_by_table(some_, problem, solution);
+    if (problem.row_count <= Tableau::row_capacity) {
+      const Outcome outcome = solve_by_table(problem, solution);
       if (outcome != Outcome::in_doubt) return outcome == Outcome::optimal ? QpStatus::optimal : QpStatus::infeasible;
-      known = is_few ? &few_.active() : &some_.active();
+      known = &tableau_.active();
     }
     inverse_.invert();
     return operators_.solve(problem, *known, inverse_, gradient_, tolerance, solution);
@@ -79,8 +77,7 @@ class DualActiveSet {
   using Six = detail::Six<Scalar>;
   using Scan = detail::RowScan<Scalar, lanes>;
   static constexpr int table_lanes = (std::min)(lanes, 4);  // more make a few rows no quicker
-  using FewRows = detail::DualTableau<Scalar, table_lanes, detail::WholeTable<Scalar, table_lanes>>;
-  using SomeRows = detail::DualTableau<Scalar, table_lanes, detail::TableByColumns<Scalar, table_lanes>>;
+  using Tableau = detail::DualTableau<Scalar, table_lanes>;
 
   enum class Outcome { optimal, infeasible, in_doubt };
 
@@ -109,30 +106,28 @@ class DualActiveSet {
   }
 
   /// Has a table find the active rows of a problem of some rows, or rows that contradict each other, and looks at them afresh.
-  template <class Tableau>
   [[gnu::noinline]]
-  Outcome solve_by_table(Tableau& tableau, const Problem& problem, Solution& solution) noexcept {
-    const bool is_found = tableau.find(problem, problem.bounds.data(), inverse_, gradient_, tolerance);
-    if (!is_found && tableau.refused() < 0) return Outcome::in_doubt;
-    const WarmStart& active = tableau.active();
-    const auto change_for = [&](const auto& distances) { return tableau.change_for(distances); };
-    guess_.place(problem, problem.bounds.data(), active, tableau.multipliers(), inverse_, gradient_, change_for, tolerance / 2);
-    if (is_found) return is_right(problem, active, 1 + tableau.steps(), solution) ? Outcome::optimal : Outcome::in_doubt;
-    return is_contradicted(tableau, problem, solution) ? Outcome::infeasible : Outcome::in_doubt;
+  Outcome solve_by_table(const Problem& problem, Solution& solution) noexcept {
+    const bool is_found = tableau_.find(problem, problem.bounds.data(), inverse_, gradient_, tolerance);
+    if (!is_found && tableau_.refused() < 0) return Outcome::in_doubt;
+    const WarmStart& active = tableau_.active();
+    const auto change_for = [this](const auto& distances) { return this->tableau_.change_for(distances); };
+    guess_.place(problem, problem.bounds.data(), active, tableau_.multipliers(), inverse_, gradient_, change_for, tolerance / 2);
+    if (is_found) return is_right(problem, active, 1 + tableau_.steps(), solution) ? Outcome::optimal : Outcome::in_doubt;
+    return is_contradicted(problem, solution) ? Outcome::infeasible : Outcome::in_doubt;
   }
 
   /// Whether the row that a table refuses contradicts the active ones.
-  template <class Tableau>
   [[gnu::noinline]]
-  bool is_contradicted(const Tableau& tableau, const Problem& problem, Solution& solution) noexcept {
+  bool is_contradicted(const Problem& problem, Solution& solution) noexcept {
     using std::isfinite;
-    const Six a = detail::row_of(problem, tableau.refused());
-    const auto& rows = tableau.active().rows;
+    const Six a = detail::row_of(problem, tableau_.refused());
+    const auto& rows = tableau_.active().rows;
     Six rest = a;
-    for (int i = 0; i < rows.size(); ++i) detail::subtract(detail::row_of(problem, rows[i]), tableau.shares()[std::size_t(i)], rest);
+    for (int i = 0; i < rows.size(); ++i) detail::subtract(detail::row_of(problem, rows[i]), tableau_.shares()[std::size_t(i)], rest);
     if (!isfinite(detail::size_of(guess_.x())) || detail::size_of(rest) > detail::allowed_rest(a)) return false;
-    if (!look(problem).is_contradiction(tableau.refused(), a, rest, true, guess_.x(), rows, tableau.shares(), tolerance, solution)) return false;
-    hand_over(tableau.active(), tableau.steps(), solution);
+    if (!look(problem).is_contradiction(tableau_.refused(), a, rest, true, guess_.x(), rows, tableau_.shares(), tolerance, solution)) return false;
+    hand_over(tableau_.active(), tableau_.steps(), solution);
     return true;
   }
 
@@ -143,8 +138,7 @@ class DualActiveSet {
   detail::InverseHessian<Scalar> inverse_;
   Six gradient_{};
   detail::HeldMinimum<Scalar, table_lanes> guess_;
-  FewRows few_;
-  SomeRows some_;
+  Tableau tableau_;
   detail::OperatorMethod<Scalar, lanes> operators_;
 };
 

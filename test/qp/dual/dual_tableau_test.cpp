@@ -16,8 +16,6 @@
 #include <Eigen/Dense>
 
 #include "feeler/qp/dual/held_minimum.hpp"
-#include "feeler/qp/dual/table_by_columns.hpp"
-#include "feeler/qp/dual/whole_table.hpp"
 #include "feeler/qp/dual_active_set.hpp"
 #include "support/general_problem.hpp"
 
@@ -28,11 +26,9 @@ namespace {
 using Problem = feeler::QpProblem<double>;
 using Vector6 = feeler::Vector6<double>;
 
-using feeler::detail::TableByColumns;
-using feeler::detail::WholeTable;
-template <template <class, int> class Table, int lanes>
-using Tableau = feeler::detail::DualTableau<double, lanes, Table<double, lanes>>;
-using Tableaus = std::tuple<Tableau<WholeTable, 2>, Tableau<TableByColumns, 2>, Tableau<TableByColumns, 4>>;
+template <int lanes>
+using Tableau = feeler::detail::DualTableau<double, lanes>;
+using Tableaus = std::tuple<Tableau<2>, Tableau<4>>;
 
 template <class AnyTableau>
 bool find(AnyTableau& tableau, const Problem& problem, double tolerance = 1e-12) {
@@ -138,11 +134,10 @@ BOOST_AUTO_TEST_CASE_TEMPLATE(the_rows_it_finds_are_the_best_of_all_subsets, Any
 
 namespace {
 
-template <template <class, int> class Table>
 void check_that_lanes_agree(unsigned seed, int most_rows) {
   std::mt19937 bits(seed);
-  Tableau<Table, 1> plain;
-  std::tuple<Tableau<Table, 2>, Tableau<Table, 4>, Tableau<Table, 8>> tableaus;
+  Tableau<1> plain;
+  std::tuple<Tableau<2>, Tableau<4>, Tableau<8>> tableaus;
   for (int i = 0; i < 2000; ++i) {
     const Problem problem = feeler_test::general_problem(bits, i % (most_rows + 1), i % 4 == 0);
     const bool is_found = find(plain, problem);
@@ -165,8 +160,8 @@ void check_that_lanes_agree(unsigned seed, int most_rows) {
 BOOST_AUTO_TEST_CASE(every_number_of_lanes_finds_the_same_bits) {
   constexpr unsigned seed = 72;
   BOOST_TEST_MESSAGE("seed " << seed);
-  check_that_lanes_agree<WholeTable>(seed, 8);
-  check_that_lanes_agree<TableByColumns>(seed, 16);
+  check_that_lanes_agree(seed, 8);
+  check_that_lanes_agree(seed, 16);
 }
 
 BOOST_AUTO_TEST_CASE_TEMPLATE(it_gives_up_where_a_row_depends_on_active_ones, AnyTableau, Tableaus) {

@@ -13,6 +13,7 @@
 #include "feeler/qp/dual/best_row.hpp"
 #include "feeler/qp/dual/inverse_hessian.hpp"
 #include "feeler/qp/dual/six.hpp"
+#include "feeler/qp/dual/table_by_columns.hpp"
 #include "feeler/qp/problem.hpp"
 #include "feeler/qp/warm_start.hpp"
 
@@ -28,9 +29,10 @@ namespace feeler::detail {
 ///
 /// Rows are chosen as by `RowScan`, and every lane computed alike, however many there are. Where a row all but depends on active ones, by an angle
 /// below 3e-4 rad, the table has too few digits of it left, and its column is computed afresh.
-/// @tparam Table  `WholeTable` or `TableByColumns`
-template <RealScalar Scalar, int lanes, class Table>
+template <RealScalar Scalar, int lanes>
 class DualTableau {
+  using Table = TableByColumns<Scalar, lanes>;
+
  public:
   static constexpr int row_capacity = Table::capacity;
 
@@ -76,7 +78,6 @@ class DualTableau {
   using Group = Lanes<Scalar, lanes>;
   using Best = BestRow<Scalar, lanes>;
   using Values = typename Table::Values;
-  static constexpr bool keeps_inverses = Table::is_whole && lanes >= 4;
   static constexpr int none = -1, given_up = -2;  // in place of a row
   /// Share of its weight with nothing active that a row has to have left.
   static Scalar independent() noexcept { return dependent_angle<Scalar>() * dependent_angle<Scalar>(); }
@@ -84,23 +85,6 @@ class DualTableau {
   static Scalar rough() noexcept { return (std::max)(Scalar(1e-7), Scalar(1024 * std::numeric_limits<Scalar>::epsilon())); }
 
   static std::size_t index(int i) noexcept { return std::size_t(i); }
-
-  /// One over a row's weight: where the column of a row is at hand, a step waits for nothing else, and it is computed with the weight.
-  Scalar inverse_weight(int row) const noexcept {
-    if constexpr (keeps_inverses) {
-      return inverse_weight_[index(row)];
-    } else {
-      return Scalar(1) / weight_[index(row)];
-    }
-  }
-  void set_weights(int k, const Group& weight) noexcept {
-    weight_.set(k, weight);
-    if constexpr (keeps_inverses) inverse_weight_.set(k, spread<Group>(Scalar(1)) / weight);
-  }
-  void set_weight(int row, const Scalar& weight) noexcept {
-    weight_[index(row)] = weight;
-    if constexpr (keeps_inverses) inverse_weight_[index(row)] = Scalar(1) / weight;
-  }
 
   /// Violations and weights where nothing is active; returns the row to add, or −1.
   int start(const QpProblem<Scalar>& problem, const Scalar* bounds, const InverseHessian<Scalar>& hessian, const Six<Scalar>& gradient,
@@ -113,7 +97,7 @@ class DualTableau {
       const Group violation = only_rows<Scalar, lanes>(load<Group>(bounds + k) + dot_of_six<Group>(scaled, homes), count_ - k);
       const Group weight = dot_of_six<Group>(scaled, rows_.at(k)), least = spread<Group>(smallest_weight<Scalar>());
       violation_.set(k, violation);
-      set_weights(k, weight);
+      weight_.set(k, weight);
       least_weight_.set(k, product(spread<Group>(Scalar(least_share)), weight) + least);
       best.meet(violation, weight + least, spread<Group>(tolerance));
     }
@@ -144,7 +128,7 @@ class DualTableau {
       const bool is_free = !active_.rows.full();
       if (is_free && !(weight_[row] > rough() * whole)) measure_again(entering, whole, *column);
       const bool has_step = is_free && weight_[row] > independent() * whole;
-      const Scalar inverse = inverse_weight(entering);
+      const Scalar inverse = Scalar(1) / weight_[row];
       Scalar step = has_step ? product(violation_[row], inverse) : std::numeric_limits<Scalar>::infinity();
       const int leaving = has_step ? first_to_leave(*column, step) : first_of_sum(entering, *column, step);
       if (leaving < 0 && !has_step) {
@@ -193,7 +177,7 @@ class DualTableau {
     for (int k = 0; k < count_; k += lanes) column.set(k, dot_of_six<Group>(rows_.at(k), by));
     for (int i = 0; i < count; ++i) column[index(active_.rows[i])] = share[index(i)] / units_[index(i)];
     column[index(entering)] = dot(scaled, rest);
-    set_weight(entering, column[index(entering)]);
+    weight_[index(entering)] = column[index(entering)];
     table_.replace(entering);
   }
   /// Takes shares of the active rows from one.
@@ -243,7 +227,7 @@ class DualTableau {
       const Group weight = weight_.at(k) - product(shares, c);
       table_.set_shares(k, shares);
       violation_.set(k, violation);
-      set_weights(k, weight);
+      weight_.set(k, weight);
       best.meet(violation, greater(weight, least_weight_.at(k)), spread<Group>(tolerance));
     }
     return best.row();
@@ -266,12 +250,12 @@ class DualTableau {
     for (int k = 0; k < count_; k += lanes) {
       const Group c = own.at(k), shares = product(factor, c);
       violation_.set(k, violation_.at(k) - product(step, column.at(k)));
-      set_weights(k, Group(weight_.at(k) - product(shares, c)));
+      weight_.set(k, Group(weight_.at(k) - product(shares, c)));
       table_.set_shares(k, shares);
     }
     table_.leave(row, inverse, scale);
     violation_[index(row)] = Scalar(0);
-    set_weight(row, -product(product(pivot, scale), scale));
+    weight_[index(row)] = -product(product(pivot, scale), scale);
     active_.rows.swap_remove(leaving);
     is_inverted_ = false;
     multipliers_[index(leaving)] = multipliers_[index(active_.rows.size())];
@@ -280,7 +264,7 @@ class DualTableau {
 
   Table table_;
   typename Table::Rows rows_;
-  Values violation_, weight_, least_weight_, inverse_weight_;  // as in `RowScan`
+  Values violation_, weight_, least_weight_;  // as in `RowScan`
   WarmStart active_;
   Six<Scalar> multipliers_{}, units_{};  // of the active rows, and what makes shares of their multipliers of their columns
   Six<Scalar> shares_{};  // of the active rows in the one that is refused

@@ -15,7 +15,7 @@
 
 namespace feeler::detail {
 
-/// The table of `DualTableau` where rows are some more: a column is computed when it is asked for, from the rows and from all sweeps so far.
+/// The table of `DualTableau`: a column is computed when it is asked for, from the rows and from all sweeps so far.
 ///
 /// A column is Aᵀ's product with a row, less an outer product's share for every sweep, and a row that was swept itself begins with its own sweep.
 /// The column of the row that may become active is written where its sweep is kept when it does.
@@ -23,7 +23,6 @@ namespace feeler::detail {
 template <RealScalar Scalar, int lanes>
 class TableByColumns {
  public:
-  static constexpr bool is_whole = false;
   static constexpr int capacity = 24;
   using Values = RowValues<Scalar, lanes, capacity>;
   using Rows = LowerRows<Scalar, lanes, capacity>;
