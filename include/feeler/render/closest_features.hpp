@@ -43,7 +43,7 @@ class ClosestFeaturesFollower {
     pose_ = pose;
     linearisation().clear();
     certificate_.clear();
-    goes_on_ = takes_first_alone_ = has_metric_turned_ = false;
+    goes_on_ = takes_first_alone_ = has_metric_turned_ = is_at_rest_ = false;
     stage_ = Stage::starting;
     limits_.reset(scene.trust_radius());
   }
@@ -52,6 +52,8 @@ class ClosestFeaturesFollower {
   void metric_turned() noexcept { has_metric_turned_ = true; }
 
   TickStatus follow(const Scene& scene, const Pose<Scalar>& target, Tick<MeshScalar>& tick) noexcept {
+    tick.iterations = 0;
+    if (is_at_rest_ && !has_metric_turned_ && is_same(target, target_)) return TickStatus::converged;
     target_ = target;
     if (stage_ == Stage::starting) turn_idly(scene, tick);
     off_ = off_target(scene, pose_);
@@ -65,6 +67,7 @@ class ClosestFeaturesFollower {
     budget_.begin_tick(scene.settings().work_budget);
     goes_on_ = !advance(scene, tick);
     if (stage_ == Stage::starting) turn_idly(scene, tick);
+    is_at_rest_ = !goes_on_ && tick.path.empty();
     return goes_on_ ? TickStatus::unconverged : TickStatus::converged;
   }
 
@@ -134,9 +137,10 @@ class ClosestFeaturesFollower {
     }
   }
 
-  bool aims_at_target() const noexcept {
-    return search_.aim().translation == target_.translation && search_.aim().rotation.coeffs() == target_.rotation.coeffs();
+  static bool is_same(const Pose<Scalar>& a, const Pose<Scalar>& b) noexcept {
+    return a.translation == b.translation && a.rotation.coeffs() == b.rotation.coeffs();
   }
+  bool aims_at_target() const noexcept { return is_same(search_.aim(), target_); }
 
   /// The hand has moved since the iteration at hand began: its motion is gone on with as long as it leads nearer, and is not the last.
   void judge_again(const Scene& scene) noexcept {
@@ -150,7 +154,6 @@ class ClosestFeaturesFollower {
     const int maximum_iterations =
         (std::min)(scene.settings().maximum_iterations, Tick<MeshScalar>::path_capacity - IdleTurns<typename Scene::Tool>::legs);
     Outcome outcome = Outcome::another;
-    tick.iterations = 0;
     do {
       ++tick.iterations;
       budget_.begin_iteration(tick.work);
@@ -282,6 +285,7 @@ class ClosestFeaturesFollower {
   Twist<Scalar> off_;  // of the certified pose from it
   bool goes_on_ = false;  // the last tick left motion for this one
   bool has_metric_turned_ = false;  // since the last tick
+  bool is_at_rest_ = false;  // the last tick moved nothing, as the pose is the minimum: nor does the next, until the hand moves
   bool takes_first_alone_ = false;  // the next motion, maybe in the next tick, is the first step: the last went back, as a triangle is missing
   Stage stage_ = Stage::starting;
   Iteration iteration_;
