@@ -1,4 +1,4 @@
-// Prismatic fits: a peg through a hole of its own section, convex or an L of two pieces, and two boxes in a slot.
+// Fits: a peg through a hole of its own section, convex, tapered or an L of two pieces, and two boxes in a slot.
 #pragma once
 
 #include <random>
@@ -27,19 +27,22 @@ inline std::function<Pose<double>(std::mt19937&)> hand_in_a_fit(const Vector& al
 /// The hole of a plate: open at both ends, and longer pegs stand out of it by 8 mm, more than a hand goes along.
 inline constexpr double peg_overhang = 0.008, way_along = 0.002;
 
-inline Points<double> prism(const Section& section, double half_length) {
+/// @param taper  share by which it is wider a metre higher up [1/m]
+inline Points<double> prism(const Section& section, double half_length, double taper = 0) {
   Points<double> points(2 * Eigen::Index(section.size()), 3);
-  for (std::size_t i = 0; i < section.size(); ++i) {
-    points.row(2 * Eigen::Index(i)) << section[i].x(), section[i].y(), -half_length;
-    points.row(2 * Eigen::Index(i) + 1) << section[i].x(), section[i].y(), half_length;
-  }
+  for (std::size_t i = 0; i < section.size(); ++i)
+    for (const int end : {0, 1}) {
+      const double z = end == 0 ? -half_length : half_length, scale = 1 + taper * z;
+      points.row(2 * Eigen::Index(i) + end) << scale * section[i].x(), scale * section[i].y(), z;
+    }
   return points;
 }
 
 /// A hole with play on each side about a section, its walls cut at random.
-inline Surface hole_about(std::mt19937& bits, const Section& section, double play, double height) {
+inline Surface hole_about(std::mt19937& bits, const Section& section, double play, double height, double taper = 0) {
   const int pieces = 1 + below(bits, section.size() > 12 ? 2 : 4), strips = 1 + below(bits, 4);
-  return ring(bits, divided(play > 0 ? parallel(section, play) : section, pieces), divided(parallel(section, play + 0.006), pieces), height, strips);
+  return ring(bits, divided(play > 0 ? parallel(section, play) : section, pieces), divided(parallel(section, play + 0.006), pieces), height, strips,
+              taper);
 }
 
 /// What has a section and goes along the z axis: nothing can push it there, as all contacts are with its sides.
@@ -60,6 +63,22 @@ LawScene<Tool> fit(std::mt19937& bits, const char* family, const Section& sectio
 inline LawScene<ConvexPolytope<double>> peg_in_hole(std::mt19937& bits, const char* family, const Section& section) {
   const double height = 0.005 + 0.015 * fraction(bits);
   return fit(bits, family, section, height, ConvexPolytope<double>::hull_of(prism(section, height / 2 + peg_overhang)));
+}
+
+/// A convex peg that is thinner below, in a hole that is too: the hand presses it into its seat, or lifts it off.
+inline LawScene<ConvexPolytope<double>> taper_in_hole(std::mt19937& bits, const char* family, const Section& section) {
+  const double height = 0.005 + 0.015 * fraction(bits), taper = magnitude(bits, 0, 1.6);
+  LawScene<ConvexPolytope<double>> scene{
+      .family = family, .surface = {}, .tool = ConvexPolytope<double>::hull_of(prism(section, height / 2 + peg_overhang, taper))};
+  scene.settings = random_law_settings(bits);
+  scene.play = random_play(bits, scene.settings.margin);
+  scene.surface = hole_about(bits, section, scene.play, height, taper);
+  scene.placed = random_placement(bits);
+  scene.random_hand = hand_in_a_fit({0, 0, way_along}, true);
+  double radius = 0;
+  for (const auto& corner : section) radius = std::max(radius, corner.norm());
+  scene.lever = std::max(2 * radius_of(scene.tool) / height, 2 / (taper * radius));
+  return scene;
 }
 
 /// An L of two bars, which overlap where they meet, about a point of the first.

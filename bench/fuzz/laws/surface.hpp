@@ -66,16 +66,20 @@ inline std::vector<Eigen::Vector2d> divided(const std::vector<Eigen::Vector2d>& 
 
 /// A closed ring: a plate from −height/2 to height/2 with a hole of one section and a rim of another, corner by corner.
 /// @param strips  of the wall of the hole along its axis
-inline Surface ring(std::mt19937& bits, const std::vector<Eigen::Vector2d>& hole, const std::vector<Eigen::Vector2d>& rim, double height,
-                    int strips) {
+/// @param taper   share by which the hole is wider a metre higher up [1/m]
+inline Surface ring(std::mt19937& bits, const std::vector<Eigen::Vector2d>& hole, const std::vector<Eigen::Vector2d>& rim, double height, int strips,
+                    double taper = 0) {
   Surface surface;
   const int n = int(hole.size());
-  const auto layer = [&](const std::vector<Eigen::Vector2d>& section, double z) {
-    for (const auto& p : section) surface.add({p.x(), p.y(), z});
+  const auto layer = [&](const std::vector<Eigen::Vector2d>& section, double z, double scale) {
+    for (const auto& p : section) surface.add({scale * p.x(), scale * p.y(), z});
   };
-  for (int k = 0; k <= strips; ++k) layer(hole, height * (double(k) / strips - 0.5));
-  layer(rim, -height / 2);
-  layer(rim, height / 2);
+  for (int k = 0; k <= strips; ++k) {
+    const double z = height * (double(k) / strips - 0.5);
+    layer(hole, z, 1 + taper * z);
+  }
+  layer(rim, -height / 2, 1);
+  layer(rim, height / 2, 1);
   const int low_rim = (strips + 1) * n, high_rim = low_rim + n, top = strips * n;
   for (int i = 0; i < n; ++i) {
     const int j = (i + 1) % n;
