@@ -13,10 +13,10 @@ namespace feeler::test {
 /// How long a scene's hand goes on, and for how long a copy of it is held at every fiftieth tick.
 struct Holding {
   int ticks, held_ticks;
-  int latest = 60;  // tick after which nothing changes any more
+  int latest = 20;  // tick after which nothing changes any more
 };
 
-/// Holds the device at every fiftieth tick of the scene's hand: 60 ticks later neither tool nor wrench changes any more.
+/// Holds the device at every fiftieth tick of the scene's hand: twenty ticks later neither tool nor wrench changes any more.
 template <RigidTool Tool>
 void check_rest(const scenes::Setting& scene, const Tool& tool, const std::string& name, const Holding& holding) {
   const TriangleMesh<double> object(scene.vertices, scene.triangles);
