@@ -45,7 +45,8 @@ struct Settings {
   /// A step that moves no tool point farther than this, and a tenth of the step before it, ends a tick as converged [m]. 1e-12 to 1e-3.
   Scalar step_tolerance = Scalar(5e-6);
 
-  /// Linearisations a tick, at most 32; when they are spent the rest of the motion is left for the next ticks.
+  /// Iterations a tick, at most 32: each finds a motion, by up to four linearisations, and certifies it. When they are spent the rest of the motion is
+  /// left for the next ticks.
   int maximum_iterations = 12;
 
   /// Work a tick, in units of one distance query between the tool and a triangle, or one optimisation (with all that goes with it, about 0.7 µs

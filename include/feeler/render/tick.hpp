@@ -39,9 +39,9 @@ struct Tick {
   /// move. After `update_until_converged` it is the way of the last update.
   FixedVector<Pose<Scalar>, path_capacity> path;
 
-  int iterations = 0;  ///< linearisations solved
-  int rows = 0;        ///< rows of the last optimisation
-  int work = 0;        ///< in the unit of `Settings::work_budget`
+  int iterations = 0;  ///< motions looked for, each by up to four linearisations
+  int rows = 0;  ///< rows of the last optimisation
+  int work = 0;  ///< in the unit of `Settings::work_budget`
 
   bool converged() const noexcept { return status == TickStatus::converged; }
 };
