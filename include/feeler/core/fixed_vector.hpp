@@ -62,10 +62,19 @@ class FixedVector {
     --size_;
     if (i != size_) (*this)[i] = (*this)[size_];
   }
-  void pop_back() noexcept { --size_; }
+  void pop_back() noexcept {
+    assert(size_ > 0);
+    --size_;
+  }
 
-  T& operator[](int i) noexcept { return store_.elements[std::size_t(i)]; }
-  const T& operator[](int i) const noexcept { return store_.elements[std::size_t(i)]; }
+  T& operator[](int i) noexcept {
+    assert(i >= 0 && i < size_);
+    return store_.elements[std::size_t(i)];
+  }
+  const T& operator[](int i) const noexcept {
+    assert(i >= 0 && i < size_);
+    return store_.elements[std::size_t(i)];
+  }
   T& back() noexcept { return (*this)[size_ - 1]; }
   const T& back() const noexcept { return (*this)[size_ - 1]; }
   T* begin() noexcept { return store_.elements.data(); }

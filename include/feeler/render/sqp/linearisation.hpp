@@ -1,6 +1,7 @@
 // The working set and its rows, at one pose at a time: measured only where a step may meet them, and only where the tool has moved.
 #pragma once
 
+#include <cassert>
 #include <limits>
 #include <optional>
 
@@ -157,7 +158,7 @@ class Linearisation {
   const auto& stops() const noexcept { return stops_; }
   /// Adds what stopped the last step, but for what was assumed, to the rows where it ended; false if they have it all.
   bool keep_stops(const Scene& scene) noexcept {
-    return stops_.keep_in(problem_, [&](const Row& row) { return scene.clearance().certified(pairs_[pairs_.find(row.piece, row.triangle)].slack); });
+    return stops_.keep_in(problem_, [&](const Row& row) { return scene.clearance().certified(pair_of(row).slack); });
   }
 
   /// Takes the triangles that the contacts of a solution pass over to into the working set, as far as the work goes: the row of one they have left
@@ -171,13 +172,20 @@ class Linearisation {
       const Vector3<Scalar> point = separation_.pose().translation + step->linear + row.carried(*step).arm;
       const int triangle = triangle_under(scene.object(), row.triangle, point);
       if (triangle < 0 || pairs_.find(row.piece, triangle) >= 0) continue;
-      take_in_as_at_start(scene, row.piece, triangle, pairs_[pairs_.find(row.piece, row.triangle)].features, tick);
+      take_in_as_at_start(scene, row.piece, triangle, pair_of(row).features, tick);
     }
   }
 
  private:
   using Pair = typename Pairs::Pair;
   using Standing = typename Problem::Standing;
+
+  /// The pair of a row in the problem, or of the last step: none is dropped amid a motion.
+  const Pair& pair_of(const Row& row) const noexcept {
+    const int pair = pairs_.find(row.piece, row.triangle);
+    assert(pair >= 0);
+    return pairs_[pair];
+  }
 
   void start_at(const Pose<Scalar>& pose, Scalar reach) noexcept {
     separation_.put_at(pose, true);
@@ -242,8 +250,8 @@ class Linearisation {
       row.piece = pair.piece;
       row.triangle = pair.triangle;
       if (problem_.repeats(row)) continue;
+      if (!problem_.add(row, standing_of(scene, pair))) break;
       pair.state = PairState::has_rows;
-      problem_.add(row, standing_of(scene, pair));
       if (separation_.is_at_start()) keep_if_touching(scene, row, pair);
     }
     if constexpr (is_convex) {

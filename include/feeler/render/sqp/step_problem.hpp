@@ -58,14 +58,18 @@ class StepProblem {
   template <class StandingOf>
   bool carry(const Displacement<Scalar>& motion, const StandingOf& standing_of) noexcept {
     const int count = rows_.size() - kept_;
-    clear();
-    for (int k = 0; k < count; ++k) {
-      const Row row = rows_[k].carried(motion);
+    int carried = 0;
+    for (; carried < count; ++carried) {
+      Row& row = rows_[carried];
+      row = row.carried(motion);
       const std::optional<Standing> standing = standing_of(row);
-      if (!standing) return false;
-      add(row, *standing);
+      if (!standing) break;
+      standings_[index(carried)] = *standing;
     }
-    return true;
+    while (rows_.size() > carried) rows_.pop_back();
+    kept_ = 0;
+    is_solved_ = false;
+    return carried == count;
   }
   /// Appends a row that held where the motion began, to hold where it ends; no other row may follow.
   bool keep(const Row& row, Scalar certified_gap) noexcept {
