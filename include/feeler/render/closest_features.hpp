@@ -62,7 +62,7 @@ class ClosestFeaturesFollower {
     if (stage_ == Stage::starting) {
       iteration_ = {};
       auto& pairs = linearisation().pairs();
-      pairs.age(scene.touching(), pairs.has_no_clearance(scene.clearance().none()) ? Scalar(0) : scene.noticed(), goes_on_);
+      pairs.age(scene.contact_distance(), pairs.has_no_clearance(scene.clearance().none()) ? Scalar(0) : scene.noticed(), goes_on_);
     }
     budget_.begin_tick(scene.settings().work_budget);
     goes_on_ = !advance(scene, tick);

@@ -111,7 +111,7 @@ class RenderedScene {
   /// What is nearer may be what holds the tool; what rests at the margin is far enough [m].
   Scalar noticed() const noexcept { return margin_ - margin_ / 1000; }
   /// What is nearer touches: any motion may meet it [m].
-  Scalar touching() const noexcept { return 4 * margin_; }
+  Scalar contact_distance() const noexcept { return 4 * margin_; }
   Scalar trust_radius() const noexcept { return Scalar(settings_.trust_radius); }
   /// Features up to this height above a triangle give rows, those with a gap up to a quarter of it: of a step, and twice the margin at least, or none
   /// would keep it [m].

@@ -43,7 +43,7 @@ class NeighbourQueue {
     const auto bring = [&](int triangle, const WitnessFeatures& features) {
       if (pairs.find(pair.piece, triangle) < 0) waiting_.push_back({pair.piece, triangle, features});
     };
-    if (pair.state == PairState::ghost && closest.distance < scene.touching()) {
+    if (pair.state == PairState::ghost && closest.distance < scene.contact_distance()) {
       const int nearer = patch.nearer_triangle(closest);
       if (nearer >= 0) bring(nearer, pair.features);
     }
@@ -52,7 +52,7 @@ class NeighbourQueue {
     if (closest.distance < too_near && !pairs.has_no_clearance(scene.clearance().none())) {
       patch.visit_continuations(too_near, [&](int triangle) { bring(triangle, {}); });
     }
-    if (closest.distance < scene.touching() && !pairs.has_no_clearance(scene.clearance().none()) && is_first_on_wall(scene, pair)) {
+    if (closest.distance < scene.contact_distance() && !pairs.has_no_clearance(scene.clearance().none()) && is_first_on_wall(scene, pair)) {
       patch.visit_rim([&](int triangle) { return pairs.find(pair.piece, triangle) >= 0; }, [&](int triangle) { bring(triangle, {}); });
     }
   }

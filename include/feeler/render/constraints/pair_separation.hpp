@@ -83,13 +83,13 @@ class PairSeparation {
   bool is_left_out(const Scene& scene, Pair& pair, Scalar reach, int& work) noexcept {
     if (pair.is_beyond(reach)) return true;
     if (!pair.has_plane()) return false;
-    if (is_at_start_) return holds_at_start(scene, pair, pair.normal, scene.touching(), work);
-    return slack_along(scene, pair, pair.normal, work) > scene.touching();
+    if (is_at_start_) return holds_at_start(scene, pair, pair.normal, scene.contact_distance(), work);
+    return slack_along(scene, pair, pair.normal, work) > scene.contact_distance();
   }
 
   /// Whether the plane of a pair measured here parts this one too: the other's rows hold the tool for both.
   bool is_covered(const Scene& scene, Pair& pair) noexcept {
-    const auto cover = covers_.above(from_tool(pair), scene.margin() / 1000, scene.touching());
+    const auto cover = covers_.above(from_tool(pair), scene.margin() / 1000, scene.contact_distance());
     if (!cover) return false;
     pair.last_normal = cover->normal;
     if (is_at_start_) pair.set_plane(cover->normal, cover->distance);

@@ -277,7 +277,7 @@ class Linearisation {
 
   /// A contact so close that any motion may break it is kept; where there is no clearance at all, rounding decides which is.
   void keep_if_touching(const Scene& scene, const Row& row, const Pair& pair) noexcept {
-    const bool touches = row.gap > scene.margin() / 1000 && row.gap < scene.touching();
+    const bool touches = row.gap > scene.margin() / 1000 && row.gap < scene.contact_distance();
     if (touches && !problem_.is_relaxed() && !row.is_assumed) kept_.add(row, scene.clearance().certified(pair.slack));
   }
 
