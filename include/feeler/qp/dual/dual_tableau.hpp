@@ -121,13 +121,13 @@ class DualTableau {
   /// Makes a row active, whatever leaves for it; returns the row to add next, or `none`, or `given_up`.
   [[gnu::always_inline]] inline int add(int entering, Scalar tolerance) noexcept {
     const std::size_t row = index(entering);
-    const Scalar whole = Scalar(1 / least_share) * least_weight_[row];
+    const Scalar unconstrained = Scalar(1 / least_share) * least_weight_[row];
     Values* column = &table_.column(rows_, entering);
     for (Scalar multiplier(0); !table_.is_full();) {
       ++steps_;
       const bool is_free = !active_.rows.full();
-      if (is_free && !(weight_[row] > rough() * whole)) measure_again(entering, whole, *column);
-      const bool has_step = is_free && weight_[row] > independent() * whole;
+      if (is_free && !(weight_[row] > rough() * unconstrained)) measure_again(entering, unconstrained, *column);
+      const bool has_step = is_free && weight_[row] > independent() * unconstrained;
       const Scalar inverse = Scalar(1) / weight_[row];
       Scalar step = has_step ? product(violation_[row], inverse) : std::numeric_limits<Scalar>::infinity();
       const int leaving = has_step ? first_to_leave(*column, step) : first_of_sum(entering, *column, step);
@@ -158,14 +158,14 @@ class DualTableau {
   ///
   /// The table tells how far it is their sum. Where that leaves more of it than rounding would, it is taken from the row itself twice (W. Kahan, in
   /// B. Parlett, "The Symmetric Eigenvalue Problem", section 6-9), so that the rest has as many digits as a scalar.
-  /// @param whole  weight of the row with nothing active
+  /// @param unconstrained  its weight with nothing active
   [[gnu::noinline]]
-  void measure_again(int entering, const Scalar& whole, Values& column) noexcept {
+  void measure_again(int entering, const Scalar& unconstrained, Values& column) noexcept {
     const int count = active_.rows.size();
     Six<Scalar> rest = rows_.row(entering), share{};
     for (int i = 0; i < count; ++i) share[index(i)] = share_of(i, column);
     take(share, rest);
-    if (dot(rows_.scaled(rest), rest) > product(independent(), whole)) {
+    if (dot(rows_.scaled(rest), rest) > product(independent(), unconstrained)) {
       Six<Scalar> along{};
       for (int i = 0; i < count; ++i) along[index(i)] = dot(rows_.scaled(rows_.row(active_.rows[i])), rest);
       const Six<Scalar> change = change_for(along);

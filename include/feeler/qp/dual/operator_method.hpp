@@ -183,26 +183,27 @@ class OperatorMethod {
 
   /// Whether no step along P·a meets the row that lacks `violation`: where its angle with the span of the
   /// active rows is too small or, with care, where the step leads far off.
-  bool is_dependent(const Six& a, const Scalar& whole, const Scalar& violation, const Scalar& slope) const noexcept {
+  /// @param unconstrained  a·H⁻¹·a, about
+  bool is_dependent(const Six& a, const Scalar& unconstrained, const Scalar& violation, const Scalar& slope) const noexcept {
     if (pair_.rows().full()) return true;
-    if (!(slope > dependent_angle_ * dependent_angle_ * whole)) return true;
+    if (!(slope > dependent_angle_ * dependent_angle_ * unconstrained)) return true;
     const Scalar clear = Scalar(1e-12);
-    if (!is_careful_ || slope > clear * whole) return false;
+    if (!is_careful_ || slope > clear * unconstrained) return false;
     return violation / slope * largest_of(pair_.operators().image().step) > far_away(a, pair_.x(), violation);
   }
 
   /// a·H⁻¹·a, to all digits.
-  Scalar whole_weight(const Six& a) const noexcept { return dot(a, inverse_->inverse_times(a)); }
+  Scalar exact_unconstrained_weight(const Six& a) const noexcept { return dot(a, inverse_->inverse_times(a)); }
 
   /// Makes a row active with equality, whatever the sign of its multiplier; leaves out rows that depend on
   /// others.
   void assume(const Problem& problem, int row) noexcept {
     if (row < 0 || row >= problem.row_count || pair_.rows().full() || pair_.has(row)) return;
     const Six a = row_of(problem, row);
-    const Scalar whole = whole_weight(a);
+    const Scalar unconstrained = exact_unconstrained_weight(a);
     pair_.operators().apply(a);
     const Scalar slope = pair_.slope_along(a);
-    if (!(slope > Scalar(clear_share) * whole)) return;
+    if (!(slope > Scalar(clear_share) * unconstrained)) return;
     const Scalar step = (bounds_[row] - dot(a, pair_.x())) / slope;
     pair_.move(step);
     pair_.activate(row, a, step, slope);
@@ -233,17 +234,17 @@ class OperatorMethod {
     Scalar violation = lacking();
     p = -1;
     if (!(violation > accepted_ + excused)) return Entry::refused;  // a fresh look says that it is met
-    Scalar whole = scan_.whole_weight(row);
+    Scalar unconstrained = scan_.rough_unconstrained_weight(row);
     Scalar multiplier(0);
     while (++solution.iterations <= limit) {
       pair_.operators().apply(a);
       Scalar slope = pair_.slope_along(a);
-      if (!(slope >= Scalar(clear_share) * whole)) {
-        whole = whole_weight(a);
+      if (!(slope >= Scalar(clear_share) * unconstrained)) {
+        unconstrained = exact_unconstrained_weight(a);
         pair_.operators().project_again();
         slope = pair_.slope_along(a);
       }
-      const bool has_no_step = is_dependent(a, whole, violation, slope);
+      const bool has_no_step = is_dependent(a, unconstrained, violation, slope);
 
       Scalar step = has_no_step ? std::numeric_limits<Scalar>::infinity() : Scalar(violation / slope);
       const int leaving = pair_.first_to_leave(step);

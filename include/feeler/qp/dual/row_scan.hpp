@@ -73,8 +73,8 @@ class RowScan {
   void set_active(int k) noexcept { violation_[index(k)] = -std::numeric_limits<Coarse>::infinity(); }
   void set_violation(int k, Scalar violation) noexcept { violation_[index(k)] = Coarse(violation); }
 
-  /// About aₖᵀH⁻¹aₖ; too much, or no number, where that is beyond what it is kept in.
-  Scalar whole_weight(int k) const noexcept { return Scalar(least_weight_[index(k)]) * Scalar(1 / least_share); }
+  /// About aₖᵀH⁻¹aₖ; too much, or NaN, where single precision does not hold it.
+  Scalar rough_unconstrained_weight(int k) const noexcept { return Scalar(least_weight_[index(k)]) * Scalar(1 / least_share); }
 
   /// The row to add; −1 if none is violated by more than `tolerance`, and also where no score is a number.
   int select(const Problem& problem, Scalar tolerance) const noexcept {
@@ -263,12 +263,12 @@ class RowScan {
   }
 
   template <class Form>
-  void weigh(const Problem& problem, const Form& whole, const FullForm& free) noexcept {
+  void weigh(const Problem& problem, const Form& unconstrained, const FullForm& free) noexcept {
     const CoarseGroup share = spread<CoarseGroup>(Coarse(least_share)), least = spread<CoarseGroup>(smallest_weight<Coarse>());
     for (int k = 0; k < problem.row_count; k += coarse_lanes) {
       const SixCoarse a = round_rows(problem, k);
       store(&weight_[index(k)], free(a));
-      store(&least_weight_[index(k)], CoarseGroup(product(share, whole(a)) + least));
+      store(&least_weight_[index(k)], CoarseGroup(product(share, unconstrained(a)) + least));
     }
   }
 
