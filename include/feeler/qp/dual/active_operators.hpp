@@ -43,7 +43,7 @@ class ActiveOperators {
     is_behind_ = false;
     is_diagonal_ = inverse.is_diagonal();
     if (is_diagonal_) {
-      copy_six(inverse.diagonal().data(), diagonal_.data());
+      copy_six(inverse.inverse_pivots().data(), diagonal_.data());
     } else {
 #pragma GCC unroll 6
       for (std::size_t j = 0; j < 6; ++j) copy_six(inverse.matrix()[j].data(), projector_[j].data());

@@ -49,7 +49,7 @@ class DualTableau {
     steps_ = 0;
     refused_ = none;
     int entering = start(problem, bounds, hessian, gradient, tolerance);
-    if (entering >= 0) table_.start(rows_, count_);
+    if (entering >= 0) table_.start(count_);
     while (entering >= 0) entering = add(entering, tolerance);
     return entering == none;
   }
@@ -148,7 +148,7 @@ class DualTableau {
         if (!is_behind_) sweep_last();
         return next;
       }
-      release(leaving, *column, step);
+      drop(leaving, *column, step);
       column = &table_.follow(entering);
     }
     return given_up;
@@ -178,7 +178,7 @@ class DualTableau {
     for (int i = 0; i < count; ++i) column[index(active_.rows[i])] = share[index(i)] / units_[index(i)];
     column[index(entering)] = dot(scaled, rest);
     weight_[index(entering)] = column[index(entering)];
-    table_.replace(entering);
+    table_.note_measured();
   }
   /// Takes shares of the active rows from one.
   void take(const Six<Scalar>& shares, Six<Scalar>& rest) const noexcept {
@@ -238,11 +238,11 @@ class DualTableau {
     for (int i = 0; i < active_.rows.size(); ++i) shares_[index(i)] = (std::min)(Scalar(0), share_of(i, column));
   }
   /// Brings the table up to the row that became active last.
-  void sweep_last() noexcept { table_.enter(active_.rows.back(), units_[index(active_.rows.size() - 1)]); }
+  void sweep_last() noexcept { table_.add(active_.rows.back()); }
 
   /// Ends the force of an active row after a step that another one ends.
   [[gnu::noinline]]
-  void release(int leaving, const Values& column, Scalar length) noexcept {
+  void drop(int leaving, const Values& column, Scalar length) noexcept {
     const int row = active_.rows[leaving];
     Values& own = table_.active_column(rows_, row);
     const Scalar pivot = own[index(row)], inverse = Scalar(1) / pivot, scale = Scalar(-1) / product(units_[index(leaving)], pivot);
@@ -253,7 +253,7 @@ class DualTableau {
       weight_.set(k, Group(weight_.at(k) - product(shares, c)));
       table_.set_shares(k, shares);
     }
-    table_.leave(row, inverse, scale);
+    table_.drop(row, scale);
     violation_[index(row)] = Scalar(0);
     weight_[index(row)] = -product(product(pivot, scale), scale);
     active_.rows.swap_remove(leaving);

@@ -41,13 +41,13 @@ class RowScan {
   /// Computes violations and weights where nothing is active, and selects as `select` does.
   /// @param bounds  of the rows, here and below
   int start(const Problem& problem, const Scalar* bounds, const InverseHessian<Scalar>& inverse, const Six<Scalar>& x, Scalar tolerance) noexcept {
-    return inverse.is_diagonal() ? start(problem, bounds, DiagonalForm(inverse.diagonal()), x, tolerance)
+    return inverse.is_diagonal() ? start(problem, bounds, DiagonalForm(inverse.inverse_pivots()), x, tolerance)
                                  : start(problem, bounds, FullForm(inverse.matrix()), x, tolerance);
   }
   /// Computes weights where some rows are active.
   void weigh(const Problem& problem, const InverseHessian<Scalar>& inverse, const SixBySix<Scalar>& projector) noexcept {
     if (inverse.is_diagonal()) {
-      weigh(problem, DiagonalForm(inverse.diagonal()), FullForm(projector));
+      weigh(problem, DiagonalForm(inverse.inverse_pivots()), FullForm(projector));
     } else {
       weigh(problem, FullForm(inverse.matrix()), FullForm(projector));
     }
