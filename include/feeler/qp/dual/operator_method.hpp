@@ -62,7 +62,7 @@ class OperatorMethod {
   using Six = detail::Six<Scalar>;
 
   enum class Outcome { optimal, infeasible, in_doubt };
-  enum class Entry { done, refused, infeasible, in_doubt };
+  enum class Addition { done, refused, infeasible, in_doubt };
 
   /// What the choice of the next row knows.
   struct Pricing {
@@ -115,12 +115,12 @@ class OperatorMethod {
     }
     const int limit = (is_careful_ ? 16 : 8) * (problem.row_count + 8);
     while (solution.iterations <= limit) {
-      const Entry entry = enter_all(problem, limit, solution, entering, pricing);
-      if (entry != Entry::done) return entry == Entry::infeasible ? Outcome::infeasible : Outcome::in_doubt;
+      const Addition added = add_all(problem, limit, solution, entering, pricing);
+      if (added != Addition::done) return added == Addition::infeasible ? Outcome::infeasible : Outcome::in_doubt;
       ++solution.iterations;
       const Scalar rounding = pricing.is_strict ? rounding_at(pair_.x()) : Scalar(0);
       const bool is_violated = is_any_violated(problem, rounding, pricing);
-      entering = is_violated ? price(problem, rounding, pricing) : -1;
+      entering = is_violated ? choose_entering(problem, rounding, pricing) : -1;
       if (entering < 0 && (pair_.rows().size() == 0 || !refine(problem))) return conclude_optimum(problem, is_violated);
     }
     return Outcome::in_doubt;
@@ -147,18 +147,18 @@ class OperatorMethod {
   }
 
   /// Makes a row active, and those that the scan names after it; `done` where there is none any more.
-  Entry enter_all(const Problem& problem, int limit, Solution& solution, int entering, Pricing& pricing) noexcept {
+  Addition add_all(const Problem& problem, int limit, Solution& solution, int entering, Pricing& pricing) noexcept {
     while (entering >= 0) {
-      const Entry entry = enter(problem, limit, solution, entering);
-      if (entry == Entry::infeasible || entry == Entry::in_doubt) return entry;
-      pricing.is_strict = pricing.is_strict || (pricing.is_measured && entry == Entry::refused);
+      const Addition added = add(problem, limit, solution, entering);
+      if (added == Addition::infeasible || added == Addition::in_doubt) return added;
+      pricing.is_strict = pricing.is_strict || (pricing.is_measured && added == Addition::refused);
       pricing.is_measured = false;
     }
-    return Entry::done;
+    return Addition::done;
   }
 
   /// The row to enter next, where one is violated; −1 if all those are active.
-  int price(const Problem& problem, Scalar rounding, Pricing& pricing) noexcept {
+  int choose_entering(const Problem& problem, Scalar rounding, Pricing& pricing) noexcept {
     scan_.measure(problem, bounds_, pair_.x(), rounding);
     for (const int row : pair_.rows()) scan_.set_active(row);
     if (!pricing.is_weighed) scan_.weigh(problem, *inverse_, pair_.operators().projector());
@@ -206,7 +206,7 @@ class OperatorMethod {
     if (!(slope > Scalar(clear_share) * unconstrained)) return;
     const Scalar step = (bounds_[row] - dot(a, pair_.x())) / slope;
     pair_.move(step);
-    pair_.activate(row, a, step, slope);
+    pair_.add(row, a, step, slope);
   }
 
   /// Where the active rows or the gradient are off, takes one step of Newton's method and returns true.
@@ -226,14 +226,14 @@ class OperatorMethod {
 
   /// Makes row p satisfied with equality, dropping rows whose multiplier would turn negative.
   /// @param p  afterwards the next row to add, or −1
-  [[gnu::always_inline]] inline Entry enter(const Problem& problem, int limit, Solution& solution, int& p) noexcept {
+  [[gnu::always_inline]] inline Addition add(const Problem& problem, int limit, Solution& solution, int& p) noexcept {
     const int row = p;
     const Six a = row_of(problem, row);
     const Scalar excused = rounding_of_dot(a, pair_.x());
     const auto lacking = [&] { return bounds_[row] - dot(a, pair_.x()); };
     Scalar violation = lacking();
     p = -1;
-    if (!(violation > accepted_ + excused)) return Entry::refused;  // a fresh look says that it is met
+    if (!(violation > accepted_ + excused)) return Addition::refused;  // a fresh look says that it is met
     Scalar unconstrained = scan_.rough_unconstrained_weight(row);
     Scalar multiplier(0);
     while (++solution.iterations <= limit) {
@@ -257,9 +257,9 @@ class OperatorMethod {
         p = scan_.add(problem, pair_.operators().image().step, step, slope, accepted_);
         scan_.set_active(row);
         if (p == row) p = -1;  // all others are violated by less than rounding leaves of this one, if at all
-        pair_.activate(row, a, multiplier, slope);
+        pair_.add(row, a, multiplier, slope);
         if (is_careful_) refine(problem);
-        return Entry::done;
+        return Addition::done;
       }
       if (has_no_step) pair_.move_multipliers(step);
       pair_.clamp_multipliers();
@@ -268,16 +268,16 @@ class OperatorMethod {
       const Scalar curvature = pair_.curve(dual);
       scan_.drop(problem, z, has_no_step ? Scalar(0) : step, dual, curvature);
       scan_.set_violation(pair_.rows()[leaving], Scalar(0));
-      pair_.release(leaving, dual, curvature);
+      pair_.drop(leaving, dual, curvature);
       violation = lacking();
     }
-    return Entry::in_doubt;
+    return Addition::in_doubt;
   }
 
   /// No step meets row p, as it is a sum of active ones with negative shares: then these rows contradict each
   /// other.
   [[gnu::noinline]]
-  Entry conclude_conflict(const Problem& problem, int p, const Six& a, Solution& solution) noexcept {
+  Addition conclude_conflict(const Problem& problem, int p, const Six& a, Solution& solution) noexcept {
     Six shares{}, rest = a;
     bool is_sum = false;
     for (int round = 0; round < 2 && !is_sum; ++round) {  // what rounding left of it is in the span as well
@@ -291,8 +291,8 @@ class OperatorMethod {
       is_sum = !(size_of(rest) > allowed_rest(a));
     }
     const Scalar allowed = is_careful_ ? Scalar(-1) : tolerance_;  // with care the bounds are relaxed
-    return look(problem).is_contradiction(p, a, rest, is_sum, pair_.x(), pair_.rows(), shares, allowed, solution) ? Entry::infeasible
-                                                                                                                  : Entry::in_doubt;
+    return look(problem).is_contradiction(p, a, rest, is_sum, pair_.x(), pair_.rows(), shares, allowed, solution) ? Addition::infeasible
+                                                                                                                  : Addition::in_doubt;
   }
 
   FreshLook<Scalar> look(const Problem& problem) const noexcept { return FreshLook<Scalar>(problem, bounds_, accepted_); }

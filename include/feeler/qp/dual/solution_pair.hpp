@@ -102,7 +102,7 @@ class SolutionPair {
 
   /// @param a      the row, last applied to
   /// @param slope  `slope_along(a)`
-  void activate(int row, const Six& a, const Scalar& multiplier, const Scalar& slope) noexcept {
+  void add(int row, const Six& a, const Scalar& multiplier, const Scalar& slope) noexcept {
     multipliers_[index(rows_.size())] = multiplier;
     rows_.push_back(row);
     operators_.add(a, slope);
@@ -111,7 +111,7 @@ class SolutionPair {
 
   /// @param dual       of the slot
   /// @param curvature  `curve(dual)`
-  void release(int slot, const Six& dual, const Scalar& curvature) noexcept {
+  void drop(int slot, const Six& dual, const Scalar& curvature) noexcept {
     operators_.drop(slot, *inverse_, dual, curvature);
     rows_.swap_remove(slot);
     multipliers_[index(slot)] = multipliers_[index(rows_.size())];
@@ -130,7 +130,7 @@ class SolutionPair {
 #pragma GCC unroll 6
       for (std::size_t j = 0; j < 6; ++j) x_[j] += product(step, dual[j]);
       move_multipliers(-step);
-      release(slot, dual, curvature);
+      drop(slot, dual, curvature);
     }
   }
 
