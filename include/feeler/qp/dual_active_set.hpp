@@ -7,9 +7,9 @@
 
 #include "feeler/core/lanes.hpp"
 #include "feeler/qp/dual/dual_tableau.hpp"
-#include "feeler/qp/dual/fresh_look.hpp"
 #include "feeler/qp/dual/held_minimum.hpp"
 #include "feeler/qp/dual/inverse_hessian.hpp"
+#include "feeler/qp/dual/kkt_check.hpp"
 #include "feeler/qp/dual/operator_method.hpp"
 #include "feeler/qp/dual/problem_rows.hpp"
 #include "feeler/qp/dual/row_scan.hpp"
@@ -24,10 +24,10 @@ namespace feeler {
 
 /// Dual active set: the minimum on some rows, whose forces do not pull, is followed to that of the problem.
 ///
-/// In three ways, of which the first one that can does it: where the rows to start from are the active ones, or the only row there is, the minimum on
-/// them is the answer (`detail::HeldMinimum`); of up to 24 rows a table tells which are active, or which contradict each other
-/// (`detail::DualTableau`); and operators in six dimensions follow any number of rows (`detail::OperatorMethod`). What the first two find counts
-/// only where a fresh look at all rows and at the gradient agrees (`detail::FreshLook`); else the third one begins with the rows that they found.
+/// There are three ways, tried in this order. The minimum on the rows to start from, or on the only row there is (`detail::HeldMinimum`). A table that
+/// tells of up to 24 rows which are active, or which contradict each other (`detail::DualTableau`). Operators in six dimensions, for any number of
+/// rows (`detail::OperatorMethod`). What the first two find counts only where it meets the conditions of an optimum (`detail::KktCheck`); else the third
+/// begins with the rows that they found.
 /// Source: D. Goldfarb, A. Idnani, "A numerically stable dual method for solving strictly convex quadratic programs", Mathematical Programming 27
 /// (1983), with dual steepest-edge pricing.
 ///
@@ -87,8 +87,9 @@ class DualActiveSet {
     const Six& x = guess_.x();
     if (!is_met(problem, known)) return false;
     Six residual;  // is finite where x is
-    if (look(problem).is_off(inverse_, gradient_, x, known.rows, guess_.multipliers(), guess_.force(), guess_.lacking(), guess_.beside(), residual) ||
-        !isfinite(detail::size_of(residual)))
+    if (kkt_check(problem).fails(inverse_, gradient_, x, known.rows, guess_.multipliers(), guess_.force(), guess_.lacking(), guess_.beside(),
+                                 residual) ||
+        !isfinite(detail::norm1(residual)))
       return false;
     hand_over(known, iterations, solution);
     return true;
@@ -105,7 +106,7 @@ class DualActiveSet {
     solution.iterations = iterations;
   }
 
-  /// Has a table find the active rows of a problem of some rows, or rows that contradict each other, and looks at them afresh.
+  /// Has a table find the active rows of a problem of some rows, or rows that contradict each other, and checks them.
   [[gnu::noinline]]
   Outcome solve_by_table(const Problem& problem, Solution& solution) noexcept {
     const bool is_found = tableau_.find(problem, problem.bounds.data(), inverse_, gradient_, tolerance);
@@ -125,14 +126,15 @@ class DualActiveSet {
     const auto& rows = tableau_.active().rows;
     Six rest = a;
     for (int i = 0; i < rows.size(); ++i) detail::subtract(detail::row_of(problem, rows[i]), tableau_.shares()[std::size_t(i)], rest);
-    if (!isfinite(detail::size_of(guess_.x())) || detail::size_of(rest) > detail::allowed_rest(a)) return false;
-    if (!look(problem).is_contradiction(tableau_.refused(), a, rest, true, guess_.x(), rows, tableau_.shares(), tolerance, solution)) return false;
+    if (!isfinite(detail::norm1(guess_.x())) || detail::norm1(rest) > detail::allowed_rest(a)) return false;
+    if (!kkt_check(problem).is_contradiction(tableau_.refused(), a, rest, true, guess_.x(), rows, tableau_.shares(), tolerance, solution))
+      return false;
     hand_over(tableau_.active(), tableau_.steps(), solution);
     return true;
   }
 
-  detail::FreshLook<Scalar> look(const Problem& problem) const noexcept {
-    return detail::FreshLook<Scalar>(problem, problem.bounds.data(), tolerance);
+  detail::KktCheck<Scalar> kkt_check(const Problem& problem) const noexcept {
+    return detail::KktCheck<Scalar>(problem, problem.bounds.data(), tolerance);
   }
 
   detail::InverseHessian<Scalar> inverse_;

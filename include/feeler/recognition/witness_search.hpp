@@ -30,7 +30,7 @@ class WitnessSearch {
   /// Triangles within tolerance that are looked at; the others are counted.
   static constexpr int most_triangles = 4096;
 
-  /// Copies the tool and refers to the object. Allocates, a word a feature.
+  /// Copies the tool and refers to the object. Allocates one word for each feature.
   WitnessSearch(const Tool& tool, const TriangleMesh<MeshScalar>& mesh, const SurfaceFeatures<MeshScalar>& surface)
       : tool_(tool),
         mesh_(mesh),

@@ -30,7 +30,7 @@ class ActiveOperators {
   /// To 16 bytes at least: of plain loops over columns g++ 12 makes loads that need as much, even where it can see that they have less.
   struct alignas((std::max)(alignof(Group), std::size_t(16))) Column : std::array<Scalar, lanes <= 2 ? 6 : 8> {};
 
-  /// The images of a vector: `step` is P·v, and `share` is N*·v, a number a slot; behind the slots in use it
+  /// The images of a vector: `step` is P·v, and `share` is N*·v, one number for each slot; behind the slots in use it
   /// is some number.
   struct Image {
     Column step{};

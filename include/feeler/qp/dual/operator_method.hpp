@@ -10,8 +10,8 @@
 #include "feeler/core/scalar.hpp"
 #include "feeler/core/unfused_product.hpp"
 #include "feeler/qp/dual/best_row.hpp"
-#include "feeler/qp/dual/fresh_look.hpp"
 #include "feeler/qp/dual/inverse_hessian.hpp"
+#include "feeler/qp/dual/kkt_check.hpp"
 #include "feeler/qp/dual/problem_rows.hpp"
 #include "feeler/qp/dual/row_scan.hpp"
 #include "feeler/qp/dual/six.hpp"
@@ -26,7 +26,7 @@ namespace feeler::detail {
 ///
 /// Source: D. Goldfarb, A. Idnani, "A numerically stable dual method for solving strictly convex quadratic programs", Mathematical Programming 27
 /// (1983), in the operators of its section 3, `ActiveOperators`, kept by rank-one updates; a row that is nearly dependent on the active ones is
-/// projected twice. An answer is optimal once a fresh look at all rows and at the gradient agrees, and infeasible once rows in conflict cancel; where
+/// projected twice. An answer is optimal once `KktCheck` agrees, and infeasible once rows in conflict cancel; where
 /// rounding prevents both, everything is done again with operators from an orthogonal factor.
 template <RealScalar Scalar, int lanes>
 class OperatorMethod {
@@ -76,8 +76,8 @@ class OperatorMethod {
 
   static std::size_t index(int i) noexcept { return std::size_t(i); }
 
-  /// Starts again with operators from an orthogonal factor, and uses up most of the tolerance, so that rows
-  /// that agree within it meet in more than a point.
+  /// Starts again, with operators from an orthogonal factor and with bounds relaxed by most of the tolerance: rows that meet in one point only to
+  /// within that then leave some room.
   Outcome run_with_care(const Problem& problem, Solution& solution) noexcept {
     is_careful_ = true;
     const Scalar smallest_angle = 128 * std::numeric_limits<Scalar>::epsilon();
@@ -96,7 +96,7 @@ class OperatorMethod {
   void relax_bounds(const Problem& problem, Scalar rounding) noexcept {
     constexpr double share = 0.875;
     for (int k = 0; k < problem.row_count; ++k) {
-      const Scalar allowed = tolerance_ + product(rounding, size_of(row_of(problem, k)));
+      const Scalar allowed = tolerance_ + product(rounding, norm1(row_of(problem, k)));
       relaxed_bounds_[index(k)] = problem.bounds[index(k)] - product(Scalar(share), allowed);
     }
     bounds_ = relaxed_bounds_.data();
@@ -133,7 +133,7 @@ class OperatorMethod {
     pair_.drop_negative();
   }
 
-  /// Whether a fresh look at x finds a violated row.
+  /// Whether a row is violated at x, by the problem itself.
   /// @param rounding  of x, where that is excused [m]
   [[gnu::always_inline]] inline bool is_any_violated(const Problem& problem, const Scalar& rounding, const Pricing& pricing) const noexcept {
     return pricing.is_strict ? scan_.is_violated(problem, bounds_, pair_.x(), accepted_, rounding)
@@ -175,7 +175,7 @@ class OperatorMethod {
     Scalar most = accepted_;
     for (int k = 0; k < problem.row_count; ++k) {
       const Six a = row_of(problem, k);
-      const Scalar violation = bounds_[k] - dot(a, pair_.x()) - product(rounding, size_of(a));
+      const Scalar violation = bounds_[k] - dot(a, pair_.x()) - product(rounding, norm1(a));
       if (violation > most && !pair_.has(k)) row = k, most = violation;
     }
     return row;
@@ -189,7 +189,7 @@ class OperatorMethod {
     if (!(slope > dependent_angle_ * dependent_angle_ * unconstrained)) return true;
     const Scalar clear = Scalar(1e-12);
     if (!is_careful_ || slope > clear * unconstrained) return false;
-    return violation / slope * largest_of(pair_.operators().image().step) > far_away(a, pair_.x(), violation);
+    return violation / slope * norm_inf(pair_.operators().image().step) > far_away(a, pair_.x(), violation);
   }
 
   /// a·H⁻¹·a, to all digits.
@@ -218,7 +218,8 @@ class OperatorMethod {
       beside = (std::max)(beside, magnitude(lacking[index(i)]));
       subtract(pair_.operators().normal(i), Scalar(-pair_.multipliers()[index(i)]), force);
     }
-    if (!look(problem).is_off(*inverse_, *gradient_, pair_.x(), pair_.rows(), pair_.multipliers(), force, lacking, beside, residual)) return false;
+    if (!kkt_check(problem).fails(*inverse_, *gradient_, pair_.x(), pair_.rows(), pair_.multipliers(), force, lacking, beside, residual))
+      return false;
 
     pair_.correct(lacking, residual);
     return true;
@@ -233,7 +234,7 @@ class OperatorMethod {
     const auto lacking = [&] { return bounds_[row] - dot(a, pair_.x()); };
     Scalar violation = lacking();
     p = -1;
-    if (!(violation > accepted_ + excused)) return Addition::refused;  // a fresh look says that it is met
+    if (!(violation > accepted_ + excused)) return Addition::refused;  // by the problem itself it is met
     Scalar unconstrained = scan_.rough_unconstrained_weight(row);
     Scalar multiplier(0);
     while (++solution.iterations <= limit) {
@@ -288,14 +289,14 @@ class OperatorMethod {
         share = (std::min)(Scalar(share + pair_.operators().image().share[index(i)]), Scalar(0));
         subtract(pair_.operators().normal(i), share, rest);
       }
-      is_sum = !(size_of(rest) > allowed_rest(a));
+      is_sum = !(norm1(rest) > allowed_rest(a));
     }
     const Scalar allowed = is_careful_ ? Scalar(-1) : tolerance_;  // with care the bounds are relaxed
-    return look(problem).is_contradiction(p, a, rest, is_sum, pair_.x(), pair_.rows(), shares, allowed, solution) ? Addition::infeasible
-                                                                                                                  : Addition::in_doubt;
+    return kkt_check(problem).is_contradiction(p, a, rest, is_sum, pair_.x(), pair_.rows(), shares, allowed, solution) ? Addition::infeasible
+                                                                                                                       : Addition::in_doubt;
   }
 
-  FreshLook<Scalar> look(const Problem& problem) const noexcept { return FreshLook<Scalar>(problem, bounds_, accepted_); }
+  KktCheck<Scalar> kkt_check(const Problem& problem) const noexcept { return KktCheck<Scalar>(problem, bounds_, accepted_); }
 
   const InverseHessian<Scalar>* inverse_ = nullptr;
   const Six* gradient_ = nullptr;

@@ -53,7 +53,7 @@ class RowScan {
     }
   }
 
-  /// Whether a row is violated at x by more than `tolerance`, or by no number; nothing of it is kept.
+  /// Whether a row is violated at x by more than `tolerance`, or by NaN; nothing of it is kept.
   static bool is_violated(const Problem& problem, const Scalar* bounds, const Six<Scalar>& x, Scalar tolerance) noexcept {
     return is_above(problem, tolerance, Violation(bounds, x));
   }

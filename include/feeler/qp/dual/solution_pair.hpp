@@ -42,7 +42,7 @@ class SolutionPair {
   const Six& x() const noexcept { return x_; }
   /// In the order of the operators' slots.
   const Rows& rows() const noexcept { return rows_; }
-  /// A number an active row; behind them is some number.
+  /// One number for each active row; behind them is some number.
   const Multipliers& multipliers() const noexcept { return multipliers_; }
   Operators& operators() noexcept { return operators_; }
   const Operators& operators() const noexcept { return operators_; }

@@ -41,7 +41,7 @@ class PairSeparation {
   /// Of the tool.
   const Matrix3<Scalar>& axes() const noexcept { return axes_; }
   bool is_at_start() const noexcept { return is_at_start_; }
-  /// Of a pair's triangle in the tool frame, a corner a column [m].
+  /// Of a pair's triangle in the tool frame, one corner in each column [m].
   Matrix3<Scalar> corners_in_tool(const Scene& scene, const Pair& pair) const noexcept { return scene.in_tool(pair.corners_world, pose_, axes_); }
 
   /// Closest points of a pair, as `closest_points_of`, and what is remembered of them.

@@ -20,7 +20,7 @@ template <class Scalar>
 struct WorkingPair {
   int piece = 0;
   int triangle = -1;
-  Matrix3<Scalar> corners_world = Matrix3<Scalar>::Zero();  ///< a corner a column [m]
+  Matrix3<Scalar> corners_world = Matrix3<Scalar>::Zero();  ///< one corner in each column [m]
   WitnessFeatures features;       ///< where the last query ended
   Vector3<Scalar> last_normal = Vector3<Scalar>::Zero();  ///< world normal that it found
   Vector3<Scalar> normal = Vector3<Scalar>::Zero();  ///< world normal that separates at the certified pose, or zero
