@@ -17,6 +17,7 @@
 #include "feeler/proximity/traversal_order.hpp"
 #include "feeler/proximity/unpassed_triangles.hpp"
 #include "feeler/proximity/wall_planes.hpp"
+#include "feeler/proximity/work_meter.hpp"
 
 namespace feeler {
 
@@ -64,7 +65,7 @@ class CulledTraversal {
     planes_->age();
     planes_->with_tool().age();
     planes_->begin(moving, start_);
-    evaluations_ += planes_->leaves().begin(moving, clearance_.kept) / 4;
+    heights_.note(planes_->leaves().begin(moving, clearance_.kept) / 4);
     noted_leaf_ = -1;
     hiding_planes_.clear();
     if (keeps_off_) hiding_planes_ = known.hiding_planes(moving, start_, clearance_);
@@ -141,7 +142,7 @@ class CulledTraversal {
   bool is_parted_by_wall(const TriangleMesh<MeshScalar>& mesh, int triangle, const Moving& moving, int& work) noexcept {
     if (walls_ == nullptr) return false;
     const bool parts = walls_->parts_triangle(mesh, triangle, moving, start_, end_, clearance_);
-    count_evaluations(work);
+    heights_.add(walls_->take_evaluations(), work);
     return parts;
   }
 
@@ -160,7 +161,7 @@ class CulledTraversal {
     for (std::size_t i = 0; i < passed.size(); ++i) {
       if (passed[i] == 0 && walls[i] >= 0 && is_wall_parted(walls[i], mesh.walls().is_inside(node, i))) passed[i] = -1;
     }
-    count_evaluations(work);
+    heights_.add(walls_->take_evaluations(), work);
   }
   /// Marks those all of whose leaves are parted by planes of their own.
   template <class MeshScalar, class Passed>
@@ -223,12 +224,6 @@ class CulledTraversal {
     return true;
   }
 
-  void count_evaluations(int& work) noexcept {
-    constexpr int evaluations_per_work = 16;
-    evaluations_ += walls_->take_evaluations();
-    work += evaluations_ / evaluations_per_work;
-    evaluations_ %= evaluations_per_work;
-  }
   void count_hits() noexcept {
     coarse_.take_hits(hiding_planes_.size() + planes_->size(), [this](int i, int hits) {
       if (i >= hiding_planes_.size()) planes_->count_hits(i - hiding_planes_.size(), hits);
@@ -240,7 +235,7 @@ class CulledTraversal {
   Clearance<Scalar> clearance_;
   int piece_;
   bool keeps_off_ = false;
-  int evaluations_ = 0;  // of heights above remembered planes, since the work last grew for it
+  WorkMeter<16> heights_;  // above remembered planes
   std::optional<TraversalPlace<Order>> place_;
   Frame start_;
   Frame end_;

@@ -6,6 +6,7 @@
 #include "feeler/proximity/gjk.hpp"
 #include "feeler/proximity/highest_corner.hpp"
 #include "feeler/proximity/motion.hpp"
+#include "feeler/proximity/work_meter.hpp"
 #include "feeler/render/constraints/closest_points_of_pair.hpp"
 #include "feeler/render/constraints/covering_planes.hpp"
 #include "feeler/render/constraints/working_set.hpp"
@@ -28,7 +29,7 @@ class PairSeparation {
   using Piece = typename Scene::Piece;
   using Pair = WorkingPair<Scalar>;
 
-  void clear() noexcept { planes_ = 0; }
+  void clear() noexcept { planes_.clear(); }
   /// @param is_at_start  whether a motion starts there
   void put_at(const Pose<Scalar>& pose, bool is_at_start) noexcept {
     pose_ = pose;
@@ -62,10 +63,7 @@ class PairSeparation {
   /// The same at another pose, with its axes.
   FEELER_FLATTEN Scalar slack_along(const Scene& scene, const Pair& pair, const Vector3<Scalar>& normal, const Pose<Scalar>& pose,
                                     const Matrix3<Scalar>& axes, int& work) noexcept {
-    if (++planes_ >= planes_per_work) {
-      planes_ = 0;
-      ++work;
-    }
+    planes_.add(1, work);
     const Piece& piece = scene.piece(pair.piece);
     const Scalar lowest = lowest_above(piece, scene.reference(), Vector3<Scalar>(axes.transpose() * normal)) - swept_radius(piece);
     return lowest - highest_corner<Scalar>(pair.corners_world.colwise() - pose.translation, normal);
@@ -100,8 +98,6 @@ class PairSeparation {
   void add_cover(const Pair& pair, Scalar distance) noexcept { covers_.add(pair.last_normal, from_tool(pair), distance); }
 
  private:
-  static constexpr int planes_per_work = 16;
-
   /// The corners of a pair, seen from the tool's reference point in world axes.
   Matrix3<Scalar> from_tool(const Pair& pair) const noexcept { return pair.corners_world.colwise() - pose_.translation; }
 
@@ -118,7 +114,7 @@ class PairSeparation {
   Matrix3<Scalar> axes_;  // there
   bool is_at_start_ = false;
   CoveringPlanes<Scalar> covers_;  // of the pairs measured there
-  int planes_ = 0;  // looked along since the work last grew for them
+  WorkMeter<16> planes_;  // looked along
 };
 
 }  // namespace feeler
