@@ -122,17 +122,17 @@ class CulledTraversal {
     return is_done;
   }
 
-  /// Whether a cached plane parts the tool from a triangle.
+  /// Whether a cached plane parts the tool from a triangle: where it does not turn with the tool, `last_parting_`.
   FEELER_FLATTEN bool is_parted(const Matrix3<Scalar>& corners, const Moving& moving) noexcept {
-    if (last_ < planes_->size() && is_behind(corners, last_)) return true;
+    if (last_parting_ < planes_->size() && is_behind(corners, last_parting_)) return true;
     const int turning = planes_->with_tool().parting(corners);
     if (turning >= 0) {
       if (planes_->with_tool().lend(turning)) add_plane(planes_->with_tool().normal_at_end(turning), moving);
       return true;
     }
     for (int i = 0; i < planes_->size(); ++i) {
-      if (i == last_ || !is_behind(corners, i)) continue;
-      last_ = i;
+      if (i == last_parting_ || !is_behind(corners, i)) continue;
+      last_parting_ = i;
       return true;
     }
     return false;
@@ -209,7 +209,9 @@ class CulledTraversal {
       }
       const Matrix3<Scalar> corners = corners_of(mesh, triangles[i], moving);
       if (!is_parted(corners, moving)) continue;
-      if (last_ < planes_->size()) note(i, planes_->normal(last_), planes_->height(last_) - highest_corner(corners, planes_->normal(last_)));
+      // Where a plane that turns with the tool parts the triangle, this one may at the start: `note` looks how far.
+      const int plane = last_parting_;
+      if (plane < planes_->size()) note(i, planes_->normal(plane), planes_->height(plane) - highest_corner(corners, planes_->normal(plane)));
       else passed_lanes_ |= 1U << i;
     }
   }
@@ -241,7 +243,7 @@ class CulledTraversal {
   Frame end_;
   std::int32_t noted_leaf_ = -1;  // the last whose planes were noted, and its triangles that were passed then
   unsigned passed_lanes_ = 0;
-  int last_ = 0;  // of the planes to part a triangle: its neighbours come next
+  int last_parting_ = 0;  // the world's plane that last parted a triangle: its neighbours come next
   typename KnownTriangles<Scalar>::Planes hiding_planes_;
   CoarsePlanes<Scalar, PlaneCache<Scalar>::capacity + KnownTriangles<Scalar>::plane_capacity> coarse_;
 };

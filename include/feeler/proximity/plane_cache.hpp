@@ -75,8 +75,8 @@ class PlaneCache {
   /// Finds the heights at the start of a motion; they are relative to where the tool is, so known where it is turned as at the end of the last one.
   template <class Moving>
   void begin(const Moving& moving, const MotionFrame<Scalar>& start) noexcept {
-    const bool goes_on = knows_heights_ && start.rotation == axes_at_end_;
-    const auto begin = [&](auto& planes) { goes_on ? planes.go_on(shift_) : planes.begin(moving, start); };
+    const bool keeps_axes = knows_heights_ && start.rotation == axes_at_end_;
+    const auto begin = [&](auto& planes) { keeps_axes ? planes.go_on(shift_) : planes.begin(moving, start); };
     for (int i = 0; i < size_; ++i) begin(planes_[index(i)]);
     begin(box_);
   }

@@ -144,11 +144,11 @@ class MotionCertificate {
     is_in_piece_ = false;
   }
 
-  /// @param is_again  what the work did not suffice for is begun again
+  /// @param is_resumed  what the work did not suffice for is begun again
   template <int pair_capacity>
-  SweepResult<Scalar> run(const Scene& scene, int& work, int limit, const WorkingSet<Scalar, pair_capacity>& pairs, bool is_again) noexcept {
+  SweepResult<Scalar> run(const Scene& scene, int& work, int limit, const WorkingSet<Scalar, pair_capacity>& pairs, bool is_resumed) noexcept {
     if constexpr (CompoundShape<ToolType>) {
-      if (!find_near_pieces(scene, work, limit, is_again)) return exhausted();
+      if (!find_near_pieces(scene, work, limit, is_resumed)) return exhausted();
     }
     for (; piece_ < scene.piece_count(); ++piece_) {
       if constexpr (CompoundShape<ToolType>) {
@@ -191,7 +191,7 @@ class MotionCertificate {
   }
 
   /// Finds the pieces that no group shows to pass everything; false where the work ran out.
-  bool find_near_pieces(const Scene& scene, int& work, int limit, bool is_again) noexcept
+  bool find_near_pieces(const Scene& scene, int& work, int limit, bool is_resumed) noexcept
     requires CompoundShape<ToolType>
   {
     const auto nodes = scene.piece_groups();
@@ -208,8 +208,8 @@ class MotionCertificate {
       }
       if (work >= limit) return false;
       const bool is_clear = passes(group, scene, scene.moving(node, from_, motion_), work, limit);
-      if (!is_clear && work >= limit && !is_again) return false;
-      is_again = false;
+      if (!is_clear && work >= limit && !is_resumed) return false;
+      is_resumed = false;
       if (is_clear) next_group_ += std::size_t(node.subtree_size() - 1);
       else group.rest = rest_after_failure;
     }
