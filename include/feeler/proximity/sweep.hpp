@@ -32,7 +32,6 @@ template <ConvexTool Tool, class Order = NearestFirst>
 class Sweep {
  public:
   using Scalar = typename Tool::Scalar;
-  using Vector = Vector3<Scalar>;
   using List = typename KnownTriangles<Scalar>::List;
 
   /// @param walls  remembered planes of the object's walls, if any
@@ -133,7 +132,7 @@ class Sweep {
     if (result_.is_over()) return result_;
     const auto is_known = known_.by_number();
     const auto measure = [&](int triangle, const Matrix3<Scalar>& corners) {
-      const PassedTriangle<Scalar> state{corners, Vector::Zero(), traversal_.features().recall_or_guess(triangle), false};
+      const PassedTriangle<Scalar> state{.corners = corners, .features = traversal_.features().recall_or_guess(triangle)};
       return examine(triangle, state, moving, work, limit, std::exchange(is_resumed, false));
     };
     WallPlanes<Scalar>* const walls = traversal_.walls();

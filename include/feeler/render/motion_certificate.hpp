@@ -88,13 +88,7 @@ class MotionCertificate {
         if (!is_near_[std::size_t(piece_)]) continue;
       }
       const MovingTool<Piece> standing = scene.moving(piece_, from_, {});
-      FixedVector<KnownTriangle<Scalar>, pair_capacity> known;
-      for (int i = 0; i < pairs.size(); ++i) {
-        const auto& pair = pairs[i];
-        if (pair.piece != piece_ || pair.is_beyond(reach_)) continue;
-        const Vector3<Scalar>& normal = pair.last_normal.isZero(Scalar(0)) ? pair.normal : pair.last_normal;
-        known.push_back({pair.triangle, {.corners = pair.corners_world.colwise() - standing.origin(), .normal = normal, .features = pair.features}});
-      }
+      const auto known = known_triangles(pairs, standing.origin(), true);
       const std::span<const KnownTriangle<Scalar>> all{known.begin(), std::size_t(known.size())};
       NoticedTriangles noticed;
       if (is_in_piece_) {
@@ -224,6 +218,20 @@ class MotionCertificate {
     return clearance;
   }
 
+  /// What is known near the piece at hand, relative to the origin of a motion.
+  /// @param is_standing  where a motion ended: a plane found there is the better one
+  template <int pair_capacity>
+  FixedVector<KnownTriangle<Scalar>, pair_capacity> known_triangles(const WorkingSet<Scalar, pair_capacity>& pairs, const Vector3<Scalar>& origin,
+                                                                    bool is_standing) const noexcept {
+    FixedVector<KnownTriangle<Scalar>, pair_capacity> known;
+    for (const auto& pair : pairs) {
+      if (pair.piece != piece_ || pair.is_beyond(reach_)) continue;
+      const Vector3<Scalar>& normal = is_standing && !pair.last_normal.isZero(Scalar(0)) ? pair.last_normal : pair.normal;
+      known.push_back({pair.triangle, {pair.corners_world.colwise() - origin, normal, pair.features, true, pair.last_normal}});
+    }
+    return known;
+  }
+
   static bool passes(Group& group, const Scene& scene, const MovingTool<Box<Scalar>>& moving, int& work, int limit) noexcept {
     return Sweep<Box<Scalar>>(group.planes, noticing_clearance(scene, moving)).parts(scene.object(), moving, work, limit);
   }
@@ -232,12 +240,7 @@ class MotionCertificate {
   template <int pair_capacity>
   SweepResult<Scalar> certify_piece(const Scene& scene, const MovingTool<Piece>& moving, int& work, int limit,
                                     const WorkingSet<Scalar, pair_capacity>& pairs) noexcept {
-    FixedVector<KnownTriangle<Scalar>, pair_capacity> known;
-    for (int i = 0; i < pairs.size(); ++i) {
-      const auto& pair = pairs[i];
-      if (pair.piece != piece_ || pair.is_beyond(reach_)) continue;
-      known.push_back({pair.triangle, {pair.corners_world.colwise() - moving.origin(), pair.normal, pair.features, true, pair.last_normal}});
-    }
+    const auto known = known_triangles(pairs, moving.origin(), false);
     const std::span<const KnownTriangle<Scalar>> all{known.begin(), std::size_t(known.size())};
     if (is_in_piece_) {
       sweep_->work_with(planes_[std::size_t(piece_)], &walls_);
