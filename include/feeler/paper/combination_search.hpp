@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "feeler/core/fixed_vector.hpp"
+#include "feeler/core/index.hpp"
 #include "feeler/paper/candidate_constraint.hpp"
 #include "feeler/paper/candidate_options.hpp"
 #include "feeler/paper/contact_regions.hpp"
@@ -96,8 +97,6 @@ class CombinationSearch {
  private:
   using Coordinates = StepCoordinates<Scalar, options.increments>;
   using Choice = std::array<int, std::size_t(options.maximum_regions)>;  // a candidate of each region
-
-  static std::size_t index(int i) noexcept { return std::size_t(i); }
 
   void try_combinations(const Scene& scene, int region_count, Tick<MeshScalar>& tick) noexcept {
     constexpr int most_counted = 1024;

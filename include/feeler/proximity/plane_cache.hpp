@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 
+#include "feeler/core/index.hpp"
 #include "feeler/core/scalar.hpp"
 #include "feeler/proximity/age_planes.hpp"
 #include "feeler/proximity/clearance.hpp"
@@ -95,8 +96,6 @@ class PlaneCache {
   void age() noexcept { detail::age_planes(planes_, size_); }
 
  private:
-  static std::size_t index(int i) noexcept { return std::size_t(i); }
-
   struct Plane : PlaneOnMotion<Scalar> {
     Scalar limit;
     int hits = 0;

@@ -5,6 +5,7 @@
 #include <array>
 #include <utility>
 
+#include "feeler/core/index.hpp"
 #include "feeler/core/scalar.hpp"
 #include "feeler/proximity/age_planes.hpp"
 #include "feeler/proximity/highest_corner.hpp"
@@ -70,8 +71,6 @@ class ToolPlanes {
   }
 
  private:
-  static std::size_t index(int i) noexcept { return std::size_t(i); }
-
   /// Where a plane is at one end of the motion; axes of the world, relative to the motion's origin.
   struct HalfSpace {
     Vector3<Scalar> normal;

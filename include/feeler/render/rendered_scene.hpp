@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "feeler/core/index.hpp"
 #include "feeler/core/requirement.hpp"
 #include "feeler/object/triangle_mesh.hpp"
 #include "feeler/proximity/clearance.hpp"
@@ -160,7 +161,6 @@ class RenderedScene {
     refuse_for(reason_against_scene(object, tool, settings));
     return settings;
   }
-  static std::size_t index(int i) noexcept { return std::size_t(i); }
   /// A sphere's turns may weigh nothing; where nobody turns it any other weight does as well.
   static Metric<Scalar> metric_of(const Settings<MeshScalar>& settings) noexcept {
     Metric<Scalar> metric = settings.metric_in_use().template cast<Scalar>();

@@ -5,6 +5,7 @@
 #include <array>
 #include <cstddef>
 
+#include "feeler/core/index.hpp"
 #include "feeler/core/lanes.hpp"
 #include "feeler/core/scalar.hpp"
 #include "feeler/core/single_lanes.hpp"
@@ -161,8 +162,6 @@ class ActiveOperators {
  private:
   using SixGroups = std::array<Group, 6>;
   using Columns = std::array<Column, 6>;
-
-  static std::size_t index(int i) noexcept { return std::size_t(i); }
 
   /// Wᵀ·v
   static Six<Scalar> multiply_transposed(const SixBySix<Scalar>& w, const Six<Scalar>& v) noexcept {

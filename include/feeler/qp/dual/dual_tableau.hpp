@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <limits>
 
+#include "feeler/core/index.hpp"
 #include "feeler/core/lane_reductions.hpp"
 #include "feeler/core/lanes.hpp"
 #include "feeler/core/scalar.hpp"
@@ -83,8 +84,6 @@ class DualTableau {
   static Scalar independent() noexcept { return dependent_angle<Scalar>() * dependent_angle<Scalar>(); }
   /// Share of which the table has too few digits.
   static Scalar rough() noexcept { return (std::max)(Scalar(1e-7), Scalar(1024 * std::numeric_limits<Scalar>::epsilon())); }
-
-  static std::size_t index(int i) noexcept { return std::size_t(i); }
 
   /// Violations and weights where nothing is active; returns the row to add, or −1.
   int start(const QpProblem<Scalar>& problem, const Scalar* bounds, const InverseHessian<Scalar>& hessian, const Six<Scalar>& gradient,

@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <limits>
 
+#include "feeler/core/index.hpp"
 #include "feeler/core/scalar.hpp"
 #include "feeler/core/unfused_product.hpp"
 #include "feeler/qp/dual/best_row.hpp"
@@ -73,8 +74,6 @@ class OperatorMethod {
 
   /// Of a row's weight with nothing active: where active rows leave less, rounding shows in it.
   static constexpr double clear_share = 1e-3;
-
-  static std::size_t index(int i) noexcept { return std::size_t(i); }
 
   /// Starts again, with operators from an orthogonal factor and with bounds relaxed by most of the tolerance: rows that meet in one point only to
   /// within that then leave some room.

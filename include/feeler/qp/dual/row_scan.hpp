@@ -7,6 +7,7 @@
 #include <limits>
 #include <type_traits>
 
+#include "feeler/core/index.hpp"
 #include "feeler/core/lane_reductions.hpp"
 #include "feeler/core/lanes.hpp"
 #include "feeler/core/scalar.hpp"
@@ -197,7 +198,6 @@ class RowScan {
     Group unit_;
   };
 
-  static std::size_t index(int i) noexcept { return std::size_t(i); }
   template <class Spread, class V>
   static std::array<Spread, 6> spread_all(const V& v) noexcept {
     using Number = std::conditional_t<std::is_same_v<Spread, Group>, Scalar, Coarse>;

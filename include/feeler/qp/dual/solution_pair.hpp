@@ -6,6 +6,7 @@
 #include <cstddef>
 
 #include "feeler/core/fixed_vector.hpp"
+#include "feeler/core/index.hpp"
 #include "feeler/core/lane_reductions.hpp"
 #include "feeler/core/lanes.hpp"
 #include "feeler/core/scalar.hpp"
@@ -150,8 +151,6 @@ class SolutionPair {
   }
 
  private:
-  static std::size_t index(int i) noexcept { return std::size_t(i); }
-
   const InverseHessian<Scalar>* inverse_ = nullptr;
   Operators operators_;
   Six x_{};

@@ -10,6 +10,7 @@
 #include <Eigen/Cholesky>
 #include <Eigen/QR>
 
+#include "feeler/core/index.hpp"
 #include "feeler/core/scalar.hpp"
 #include "feeler/qp/problem.hpp"
 #include "feeler/qp/qp_solver.hpp"
@@ -91,8 +92,6 @@ class ElasticRows {
     Scalar low = Scalar(0), high = Scalar(0);  // the relaxation lies between [m]
     bool is_least = true;  // with less than the one at hand there is no solution
   };
-
-  static std::size_t index(int k) noexcept { return std::size_t(k); }
 
   /// A solver that knows no warm start does without.
   template <QpSolver Solver>

@@ -7,6 +7,7 @@
 
 #include "feeler/contact/contact_row.hpp"
 #include "feeler/core/fixed_vector.hpp"
+#include "feeler/core/index.hpp"
 #include "feeler/core/scalar.hpp"
 #include "feeler/qp/qp_solver.hpp"
 #include "feeler/qp/warm_start.hpp"
@@ -179,8 +180,6 @@ class StepProblem {
   }
 
  private:
-  static std::size_t index(int i) noexcept { return std::size_t(i); }
-
   /// Whether the last solution has the active rows of another, and their multipliers to an eighth of its largest.
   bool has_forces_like(const QpSolution<Scalar>& other) const noexcept {
     Scalar largest(0), change(0);
