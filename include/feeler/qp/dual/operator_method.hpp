@@ -47,22 +47,21 @@ class OperatorMethod {
     bounds_ = problem.bounds.data();
     is_careful_ = false;
     dependent_angle_ = dependent_angle<Scalar>();
-    Outcome outcome = run(problem, known, solution);
-    if (outcome == Outcome::in_doubt) outcome = run_with_care(problem, solution);
+    QpStatus status = run(problem, known, solution);
+    if (status == in_doubt) status = run_with_care(problem, solution);
     if (!pair_.is_finite()) {  // nor was the input: no step is the only one that is sure to be finite
       solution.conflict.clear();
-      return QpStatus::iteration_limit;
+      return in_doubt;
     }
     copy_six(pair_.x().data(), solution.step.data());
     for (int i = 0; i < pair_.rows().size(); ++i) solution.active.push_back({pair_.rows()[i], pair_.multipliers()[index(i)]});
-    if (outcome == Outcome::optimal) return QpStatus::optimal;
-    return outcome == Outcome::infeasible ? QpStatus::infeasible : QpStatus::iteration_limit;
+    return status;
   }
 
  private:
   using Six = detail::Six<Scalar>;
 
-  enum class Outcome { optimal, infeasible, in_doubt };
+  static constexpr QpStatus in_doubt = QpStatus::iteration_limit;  // of a run
   enum class Addition { done, refused, infeasible, in_doubt };
 
   /// What the choice of the next row knows.
@@ -77,19 +76,19 @@ class OperatorMethod {
 
   /// Starts again, with operators from an orthogonal factor and with bounds relaxed by most of the tolerance: rows that meet in one point only to
   /// within that then leave some room.
-  Outcome run_with_care(const Problem& problem, Solution& solution) noexcept {
+  QpStatus run_with_care(const Problem& problem, Solution& solution) noexcept {
     is_careful_ = true;
     const Scalar smallest_angle = 128 * std::numeric_limits<Scalar>::epsilon();
     Scalar rounding = (std::min)(rounding_at(pair_.x()), rounding_at(inverse_->inverse_times(*gradient_)));
     for (const double coarseness : {1.0, 1.0, 30.0, 1e6}) {
       relax_bounds(problem, rounding);
       dependent_angle_ = Scalar(coarseness) * smallest_angle;
-      const Outcome outcome = run(problem, WarmStart{}, solution);
+      const QpStatus status = run(problem, WarmStart{}, solution);
       rounding = rounding_at(pair_.x());
-      if (outcome == Outcome::infeasible) return outcome;
-      if (outcome == Outcome::optimal && !scan_.is_violated(problem, problem.bounds.data(), pair_.x(), tolerance_, 2 * rounding)) return outcome;
+      if (status == QpStatus::infeasible) return status;
+      if (status == QpStatus::optimal && !scan_.is_violated(problem, problem.bounds.data(), pair_.x(), tolerance_, 2 * rounding)) return status;
     }
-    return Outcome::in_doubt;
+    return in_doubt;
   }
 
   void relax_bounds(const Problem& problem, Scalar rounding) noexcept {
@@ -104,25 +103,25 @@ class OperatorMethod {
 
   /// The method itself.
   /// @param start  rows to make active first
-  Outcome run(const Problem& problem, const WarmStart& start, Solution& solution) noexcept {
+  QpStatus run(const Problem& problem, const WarmStart& start, Solution& solution) noexcept {
     start_pair(problem, start);
     Pricing pricing{.is_weighed = pair_.rows().size() == 0};
     int entering = -1;
     if (pricing.is_weighed) {
       entering = scan_.start(problem, bounds_, *inverse_, pair_.x(), accepted_);
-      if (entering < 0 && !scan_.is_violated(problem, bounds_, pair_.x(), accepted_)) return Outcome::optimal;
+      if (entering < 0 && !scan_.is_violated(problem, bounds_, pair_.x(), accepted_)) return QpStatus::optimal;
     }
     const int limit = (is_careful_ ? 16 : 8) * (problem.row_count + 8);
     while (solution.iterations <= limit) {
       const Addition added = add_all(problem, limit, solution, entering, pricing);
-      if (added != Addition::done) return added == Addition::infeasible ? Outcome::infeasible : Outcome::in_doubt;
+      if (added != Addition::done) return added == Addition::infeasible ? QpStatus::infeasible : in_doubt;
       ++solution.iterations;
       const Scalar rounding = pricing.is_strict ? rounding_at(pair_.x()) : Scalar(0);
       const bool is_violated = is_any_violated(problem, rounding, pricing);
       entering = is_violated ? choose_entering(problem, rounding, pricing) : -1;
       if (entering < 0 && (pair_.rows().size() == 0 || !refine(problem))) return conclude_optimum(problem, is_violated);
     }
-    return Outcome::in_doubt;
+    return in_doubt;
   }
 
   /// The unconstrained minimum, or that on known rows, as long as they hold.
@@ -140,9 +139,9 @@ class OperatorMethod {
   }
 
   /// Nothing is left to enter or to refine: an optimum, unless rows have no value at x.
-  [[gnu::always_inline]] inline Outcome conclude_optimum(const Problem& problem, bool is_violated) const noexcept {
+  [[gnu::always_inline]] inline QpStatus conclude_optimum(const Problem& problem, bool is_violated) const noexcept {
     const bool are_numbers = !is_violated || !scan_.is_violated(problem, bounds_, pair_.x(), std::numeric_limits<Scalar>::infinity());
-    return are_numbers ? Outcome::optimal : Outcome::in_doubt;
+    return are_numbers ? QpStatus::optimal : in_doubt;
   }
 
   /// Makes a row active, and those that the scan names after it; `done` where there is none any more.
@@ -278,18 +277,8 @@ class OperatorMethod {
   /// other.
   [[gnu::noinline]]
   Addition conclude_conflict(const Problem& problem, int p, const Six& a, Solution& solution) noexcept {
-    Six shares{}, rest = a;
-    bool is_sum = false;
-    for (int round = 0; round < 2 && !is_sum; ++round) {  // what rounding left of it is in the span as well
-      if (round > 0) pair_.operators().apply(rest);
-      rest = a;
-      for (int i = 0; i < pair_.rows().size(); ++i) {
-        Scalar& share = shares[index(i)];
-        share = (std::min)(Scalar(share + pair_.operators().image().share[index(i)]), Scalar(0));
-        subtract(pair_.operators().normal(i), share, rest);
-      }
-      is_sum = !(norm1(rest) > allowed_rest(a));
-    }
+    Six shares{}, rest;
+    const bool is_sum = pair_.expand(a, shares, rest);
     const Scalar allowed = is_careful_ ? Scalar(-1) : tolerance_;  // with care the bounds are relaxed
     return kkt_check(problem).is_contradiction(p, a, rest, is_sum, pair_.x(), pair_.rows(), shares, allowed, solution) ? Addition::infeasible
                                                                                                                        : Addition::in_doubt;

@@ -13,6 +13,7 @@
 #include "feeler/core/unfused_product.hpp"
 #include "feeler/qp/dual/active_operators.hpp"
 #include "feeler/qp/dual/inverse_hessian.hpp"
+#include "feeler/qp/dual/kkt_check.hpp"
 #include "feeler/qp/dual/six.hpp"
 
 namespace feeler::detail {
@@ -92,6 +93,23 @@ class SolutionPair {
       }
     }
     return leaving;
+  }
+
+  /// The shares of the active rows in row a, none of them positive, and the rest; whether that is what rounding leaves.
+  /// @param a       last applied to
+  /// @param shares  0
+  bool expand(const Six& a, Six& shares, Six& rest) noexcept {
+    for (int round = 0; round < 2; ++round) {  // what rounding left of it is in the span as well
+      if (round > 0) operators_.apply(rest);
+      rest = a;
+      for (int i = 0; i < rows_.size(); ++i) {
+        Scalar& share = shares[index(i)];
+        share = (std::min)(Scalar(share + operators_.image().share[index(i)]), Scalar(0));
+        subtract(operators_.normal(i), share, rest);
+      }
+      if (!(norm1(rest) > allowed_rest(a))) return true;
+    }
+    return false;
   }
 
   /// Applies the operators to H·dual and returns dual·H·dual.
