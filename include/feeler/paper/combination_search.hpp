@@ -127,7 +127,7 @@ class CombinationSearch {
       if (!solve_or_relax(scene, pose)) return;
       if (!is_capped) note_active(active);
       pose = coordinates.pose_at(qp_solution_.step);
-      if (scene.length_of(Twist<Scalar>::from_vector(qp_solution_.step)) < Scalar(scene.settings().step_tolerance) / 50) break;
+      if (scene.length_of(Twist<Scalar>::from_vector(qp_solution_.step)) < scene.very_short()) break;
       if constexpr (options.is_certified()) {
         const Twist<Scalar> motion = motion_between(reach_.pose, pose);
         const Scalar length = scene.length_of(motion);

@@ -161,7 +161,7 @@ class ClosestFeaturesFollower {
       if (outcome == Outcome::arrived && !aims_at_target()) outcome = Outcome::another;
       if (outcome == Outcome::arrived && !problem().is_optimal()) outcome = Outcome::left;
     } while (outcome == Outcome::another && tick.iterations < maximum_iterations && budget_.allows_another(tick.work) &&
-             !(limits_.trust() < resting(scene)));
+             !(limits_.trust() < scene.no_motion()));
     if (outcome == Outcome::suspended) ++iteration_.ticks;
     else stage_ = Stage::starting;
     if (outcome == Outcome::another || outcome == Outcome::suspended) limits_.carry_over();
@@ -193,7 +193,7 @@ class ClosestFeaturesFollower {
     const TrialMotion<Scalar>& trial = search_.motion();
     takes_first_alone_ = trial.goes_back;
     it.length = scene.length_of(trial.motion, pose_);
-    if (!trial.is_settled && !it.came_to_nothing && it.length < Search::very_short(scene)) {
+    if (!trial.is_settled && !it.came_to_nothing && it.length < scene.very_short()) {
       // One linearisation takes back what another asks for, as a triangle is missing from both: the first alone will meet it.
       it.came_to_nothing = true;
       it.is_taken_back = trial.is_taken_back;
@@ -204,7 +204,7 @@ class ClosestFeaturesFollower {
     const Pose<Scalar> end = scene.idle_turns().moved(pose_, trial.motion);
     if (it.came_to_nothing && (is_held || trial.is_at_rest) && !descends_clearly(scene.metric(), off_, off_target(scene, end), scene.margin()))
       return Outcome::arrived;
-    if (it.length <= resting(scene)) return trial.is_settled && !trial.is_capped ? Outcome::arrived : Outcome::left;
+    if (it.length <= scene.no_motion()) return trial.is_settled && !trial.is_capped ? Outcome::arrived : Outcome::left;
     it.came_to_nothing = false;
     it.end = end;
     if (is_descent(scene)) return Outcome::proposed;
@@ -269,9 +269,6 @@ class ClosestFeaturesFollower {
     if (it.ticks > 0 && linearisation().is_empty()) limits_.shorten(true, (std::max)(it.length / Scalar(it.ticks + 1), scene.trust_radius()));
     else limits_.widen(it.work);
   }
-
-  /// A motion as short as this is none [m].
-  static Scalar resting(const Scene& scene) noexcept { return Scalar(scene.settings().step_tolerance) / 500000; }
 
   Twist<Scalar> off_target(const Scene& scene, const Pose<Scalar>& pose) const noexcept { return scene.idle_turns().motion_between(target_, pose); }
 

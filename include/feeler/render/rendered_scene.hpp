@@ -113,6 +113,11 @@ class RenderedScene {
   Scalar noticed() const noexcept { return margin_ - margin_ / 1000; }
   /// What is nearer touches: any motion may meet it [m].
   Scalar contact_distance() const noexcept { return 4 * margin_; }
+  /// `Settings::step_tolerance`; and what is short whatever the step before it was, what is rest where a motion starts, and what is no motion [m].
+  Scalar step_tolerance() const noexcept { return Scalar(settings_.step_tolerance); }
+  Scalar very_short() const noexcept { return step_tolerance() / 50; }
+  Scalar at_rest() const noexcept { return very_short() / 100; }
+  Scalar no_motion() const noexcept { return step_tolerance() / 500000; }
   Scalar trust_radius() const noexcept { return Scalar(settings_.trust_radius); }
   /// Features up to this height above a triangle give rows, those with a gap up to a quarter of it: of a step, and twice the margin at least, or none
   /// would keep it [m].

@@ -32,6 +32,7 @@ template <RealScalar ScalarType, int row_capacity>
 class ElasticRows {
  public:
   using Scalar = ScalarType;
+  static constexpr int most_solves = 24;
 
   void clear() noexcept { size_ = 0; }
   /// Appends the bounds of the next row of a problem.
@@ -51,18 +52,18 @@ class ElasticRows {
   /// @param problem  its Hessian, gradient and rows are given; its bounds become those that hold
   /// @param price    c
   /// @param least    smallest change of ξ worth a QP: some tolerances of the solver [m]
-  /// @param most_solves  QPs; with the last one all rows are relaxed
+  /// @param allowed  QPs, `most_solves` at most; with the last one all rows are relaxed
   /// @param start    rows that are likely to be active
   /// @return  QPs solved, or 0 where not even the hard bounds have a solution, to the solver's tolerance
-  /// @cost    noexcept, no allocation; one QP where nothing is to be relaxed, 24 or `most_solves` at most
+  /// @cost    noexcept, no allocation; one QP where nothing is to be relaxed
   template <QpSolver Solver>
-  int solve(Solver& solver, QpProblem<Scalar>& problem, Scalar price, Scalar least, int most_solves, const WarmStart& start,
+  int solve(Solver& solver, QpProblem<Scalar>& problem, Scalar price, Scalar least, int allowed, const WarmStart& start,
             QpSolution<Scalar>& solution) noexcept {
-    const int maximum_solves = (std::min)(most_solves, 24);
+    const int last = (std::min)(allowed, most_solves);
     Search search{.price = price, .least = least, .most = relaxation_at_rest()};
     begin_again(search);
-    for (int solves = 1; solves <= maximum_solves; ++solves) {
-      const bool is_last = solves == maximum_solves;
+    for (int solves = 1; solves <= last; ++solves) {
+      const bool is_last = solves == last;
       if (is_last) relax_all(search.high);
       load(problem);
       const QpStatus status = solves == 1 ? solve_from(solver, problem, start, solution) : solver.solve(problem, solution);

@@ -87,7 +87,7 @@ class Linearisation {
   bool start_carried(const Scene& scene, const Pose<Scalar>& pose, Scalar reach, Tick<MeshScalar>& tick, int limit = unlimited) noexcept {
     if (!has_rows_ || problem_.rests_on_kept()) return false;  // rows of the features that the tool was to leave
     const Twist<Scalar> motion = scene.idle_turns().motion_between(separation_.pose(), pose);
-    if (scene.length_of(motion, pose) > Scalar(scene.settings().step_tolerance)) return false;
+    if (scene.length_of(motion, pose) > scene.step_tolerance()) return false;
     start_at(pose, reach);
     for (Pair& pair : pairs_) {
       if (pair.state == PairState::left_out) continue;

@@ -79,7 +79,7 @@ class StepProblem {
     return true;
   }
   /// How many QPs the next steps may take each; a few in any case.
-  void limit_solves(int most) noexcept { most_solves_ = (std::max)(most, 3); }
+  void limit_solves(int most) noexcept { allowed_solves_ = (std::max)(most, 3); }
   /// QPs that the last step took.
   int solves() const noexcept { return solves_; }
   /// Whether the rows are those of the last solution, and some kept or added since.
@@ -220,7 +220,7 @@ class StepProblem {
   /// @param start  rows that are likely to be active
   void solve_elastic(const WarmStart& start = {}) noexcept {
     is_solved_ = is_optimal_ = true;
-    solves_ = elastic_.solve(solver_, problem_, price_, picometre, most_solves_, start, solution_);
+    solves_ = elastic_.solve(solver_, problem_, price_, picometre, allowed_solves_, start, solution_);
     if (solves_ > 0) return;
     solves_ = 1;
     // Rounding or curvature may leave a row short of its hard bound by a hair: stay where rows allow it.
@@ -247,7 +247,7 @@ class StepProblem {
   std::array<Standing, std::size_t(row_capacity)> standings_;
   ElasticRows<Scalar, row_capacity> elastic_;
   Scalar price_ = Scalar(0);  // of the margin, in the unit of multipliers
-  int most_solves_ = 24, solves_ = 0;
+  int allowed_solves_ = ElasticRows<Scalar, row_capacity>::most_solves, solves_ = 0;
   bool is_solved_ = false;  // since the rows were last cleared
   bool is_optimal_ = true;  // as the solver says of the last QP
 };

@@ -42,8 +42,6 @@ class TrialMotionSearch {
 
   static constexpr int most_rounds = 4;  // linearisations for one motion
 
-  /// A step that is short whatever the one before it was [m].
-  static Scalar very_short(const Scene& scene) noexcept { return Scalar(scene.settings().step_tolerance) / 50; }
   /// What is farther away cannot stop the next step [m].
   static Scalar reach_of_step(const Scene& scene, const StepLimits<Scalar>& limits) noexcept { return limits.trust() + scene.margin(); }
 
@@ -121,7 +119,7 @@ class TrialMotionSearch {
     const Scalar last = scene.length_of(leg.step, task.linearised);
     if (rounds_.count == 0) {
       rounds_.first = last;
-      motion_.is_at_rest = rounds_.is_measured && last < very_short(scene) / 100;
+      motion_.is_at_rest = rounds_.is_measured && last < scene.at_rest();
     }
     const Scalar longest = limits.longest(linearisation_.is_empty());
     // Where the optimum is flat a step may be of more than a turn, of which a pose would not know the direction.
@@ -151,7 +149,7 @@ class TrialMotionSearch {
     step.solve();
     if (is_first) motion_.restoration = (std::max)(linearisation_.problem().worth_of_margin(), Scalar(0));
     Leg<Scalar> leg = is_first ? step.leg() : step.with_kept_contacts(step.leg());
-    if (rounds_.previous > very_short(scene) && !motion_.is_capped && step.reconcile()) {
+    if (rounds_.previous > scene.very_short() && !motion_.is_capped && step.reconcile()) {
       leg = step.leg();
       rounds_.is_taken_back = rounds_.is_taken_back || rounds_.count == 1;
     }
@@ -167,11 +165,11 @@ class TrialMotionSearch {
     rounds_.assumes_valleys = rounds_.assumes_valleys && !rests_on_assumption;  // with it again, two linearisations would take turns
     // A short step is the last one where steps shrink fast, and go on to, or where it is very short.
     const bool shrinks_fast = problem.is_newton() && last < rounds_.previous / 10;
-    const bool is_short = last < Scalar(scene.settings().step_tolerance) && (shrinks_fast || last < very_short(scene));
+    const bool is_short = last < scene.step_tolerance() && (shrinks_fast || last < scene.very_short());
     rounds_.previous = last;
     const bool rests_on_kept = problem.rests_on_kept();
     motion_.is_home = motion_.is_free && !motion_.is_capped && scene.has_led_to(aim_, rounds_.pose, length);
-    motion_.is_taken_back = rounds_.is_taken_back && rests_on_kept && last < very_short(scene) && !motion_.is_capped;
+    motion_.is_taken_back = rounds_.is_taken_back && rests_on_kept && last < scene.very_short() && !motion_.is_capped;
     motion_.goes_back = rests_on_kept && length < rounds_.first / 4 && !motion_.is_capped;
     motion_.is_settled = (is_short && rounds_.is_measured && !rests_on_assumption && !rests_on_kept && problem.keeps_features()) || motion_.is_home;
     return motion_.is_settled || motion_.is_capped || (is_short && rests_on_kept);
