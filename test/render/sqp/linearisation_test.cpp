@@ -175,8 +175,8 @@ BOOST_AUTO_TEST_CASE(what_stopped_a_step_can_be_kept_where_it_ended_though_nothi
   room.lines.start_measured(room.scene, Room::stand(), reach, room.tick);
   auto& problem = room.lines.problem();
   const Twist<double> from_hand{Vector(-2e-4, 0, 0), Vector::Zero()};  // the hand is in the wall
-  problem.project(room.scene.metric(), from_hand, room.scene.margin());
-  problem.bend(room.scene.metric(), from_hand);
+  problem.solve_gauss_newton(room.scene.metric(), from_hand, room.scene.margin());
+  problem.solve_newton(room.scene.metric(), from_hand);
   BOOST_TEST_REQUIRE(!problem.is_free());
   const Twist<double> back = Room::along_x(-5e-5);
   room.lines.remember_stops(back);

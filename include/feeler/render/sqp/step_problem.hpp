@@ -115,8 +115,8 @@ class StepProblem {
   /// Room that the last step left to a row before it would stop it, to first order [m]; 0 for an active one.
   Scalar room_after(int k) const noexcept { return problem_.rows[index(k)].dot(solution_.step) - problem_.bounds[index(k)]; }
 
-  /// The step that minimises f with its own Hessian: the way home, where no row holds.
-  const Vector6<Scalar>& project(const TurnedMetric<Scalar>& metric, const Twist<Scalar>& graphic_from_haptic, Scalar margin) noexcept {
+  /// The step with the Hessian of f alone: the way home, where no row holds.
+  const Vector6<Scalar>& solve_gauss_newton(const TurnedMetric<Scalar>& metric, const Twist<Scalar>& graphic_from_haptic, Scalar margin) noexcept {
     load_rows(margin);
     if (!metric.is_turned() && metric.along().is_isotropic()) {
       detail::set_symmetric(problem_.hessian, detail::diagonal_of(metric.along().diagonal()));
@@ -131,42 +131,42 @@ class StepProblem {
     if (is_free_) last_forces_.clear();
     return solution_.step;
   }
-  /// After `project`, or a near guess: where contacts hold, the step with the Hessian of the Lagrangian.
-  const Vector6<Scalar>& bend(const TurnedMetric<Scalar>& metric, const Twist<Scalar>& graphic_from_haptic) noexcept {
+  /// After `solve_gauss_newton`, or a close guess: where contacts hold, the step with the Hessian of the Lagrangian.
+  const Vector6<Scalar>& solve_newton(const TurnedMetric<Scalar>& metric, const Twist<Scalar>& graphic_from_haptic) noexcept {
     if (is_free_) return solution_.step;
-    projection_ = solution_;
-    is_newton_ = set_lagrangian(problem_, metric, graphic_from_haptic, rows_, projection_.active);
-    solve_elastic(WarmStart(projection_));
+    gauss_newton_ = solution_;
+    is_newton_ = set_lagrangian(problem_, metric, graphic_from_haptic, rows_, gauss_newton_.active);
+    solve_elastic(WarmStart(gauss_newton_));
     // Without its rows the curvature they were given means nothing.
-    if (solution_.active.empty()) solution_ = projection_;
+    if (solution_.active.empty()) solution_ = gauss_newton_;
     remember_forces();
     return solution_.step;
   }
   /// What the forces of the last step are worth in the next one.
   enum class Guess {
     none,  ///< no contact held the tool, or one that did is gone: nothing was solved
-    wrong,  ///< no contact holds it now, or not all rows can have the margin: to be projected
-    close,  ///< as good as a projection, as other contacts hold it, or with other forces: to be bent
-    right,  ///< the step is what `bend` would find
+    wrong,  ///< no contact holds it now, or not all rows can have the margin: `solve_gauss_newton` is to follow
+    close,  ///< other contacts hold it, or with other forces: `solve_newton` is to follow
+    right,  ///< the step is what `solve_newton` would find
   };
-  /// Both at once, with the forces of the last step in place of those of a projection (sequential quadratic programming).
-  Guess bend_again(const TurnedMetric<Scalar>& metric, const Twist<Scalar>& graphic_from_haptic, Scalar margin) noexcept {
-    if (last_forces_.empty() || !last_forces_.find(rows_, projection_.active)) return Guess::none;
+  /// Both at once, with the forces of the last step in place of those of a Gauss-Newton step (sequential quadratic programming).
+  Guess solve_newton_by_guess(const TurnedMetric<Scalar>& metric, const Twist<Scalar>& graphic_from_haptic, Scalar margin) noexcept {
+    if (last_forces_.empty() || !last_forces_.find(rows_, gauss_newton_.active)) return Guess::none;
     load_rows(margin);
     set_price(metric, graphic_from_haptic, margin);
-    is_newton_ = set_lagrangian(problem_, metric, graphic_from_haptic, rows_, projection_.active);
-    solve_elastic(WarmStart(projection_));
+    is_newton_ = set_lagrangian(problem_, metric, graphic_from_haptic, rows_, gauss_newton_.active);
+    solve_elastic(WarmStart(gauss_newton_));
     if (solution_.active.empty() || is_relaxed()) return Guess::wrong;
     is_free_ = false;
-    if (!has_forces_like(projection_)) return Guess::close;
+    if (!has_forces_like(gauss_newton_)) return Guess::close;
     remember_forces();
     return Guess::right;
   }
   /// Knows nothing of earlier steps.
   void forget() noexcept { last_forces_.clear(); }
-  /// Whether no contact holds the tool: the last `project` was not stopped by any row, nor a guess after it.
+  /// Whether no contact holds the tool: the last Gauss-Newton step was not stopped by any row, nor a guess after it.
   bool is_free() const noexcept { return is_free_; }
-  /// Whether the last `bend` had the Hessian of the Lagrangian whole: else steps shrink by a ratio only, and a short one is not the last.
+  /// Whether the last Newton step had the Hessian of the Lagrangian whole: else steps shrink by a ratio only, and a short one is not the last.
   bool is_newton() const noexcept { return is_newton_; }
 
   /// The smallest step that meets the rows.
@@ -192,7 +192,7 @@ class StepProblem {
     return solution_.active.size() == other.active.size() && 8 * change <= largest;
   }
 
-  /// Where rows have given up the margin only a projection knows which.
+  /// Where rows have given up the margin only a Gauss-Newton step knows which.
   void remember_forces() noexcept {
     if (is_relaxed()) last_forces_.clear();
     else last_forces_.remember(solution_.active, rows_);
@@ -238,7 +238,7 @@ class StepProblem {
   Solver solver_;
   QpProblem<Scalar> problem_;
   QpSolution<Scalar> solution_;
-  QpSolution<Scalar> projection_;  // or what is taken for one
+  QpSolution<Scalar> gauss_newton_;  // or what is taken for one
   LastForces<Row> last_forces_;
   bool is_free_ = true;
   bool is_newton_ = true;
