@@ -69,24 +69,24 @@ class PairSeparation {
     return lowest - highest_corner<Scalar>(pair.corners_world.colwise() - pose.translation, normal);
   }
 
-  /// Whether a plane parts a pair where the motion starts by more than a distance; then it is the pair's.
-  bool holds_at_start(const Scene& scene, Pair& pair, const Vector3<Scalar>& normal, Scalar least, int& work) noexcept {
+  /// Makes a plane the pair's if it parts the pair where the motion starts by more than a distance.
+  bool try_plane_at_start(const Scene& scene, Pair& pair, const Vector3<Scalar>& normal, Scalar least, int& work) noexcept {
     const Scalar slack = slack_along(scene, pair, normal, work);
     if (!(slack > least)) return false;
     pair.set_plane(normal, slack);
     return true;
   }
 
-  /// Whether the plane of a pair parts it from the tool by more than what touches; or it is certainly beyond `reach` [m].
-  bool is_left_out(const Scene& scene, Pair& pair, Scalar reach, int& work) noexcept {
+  /// Whether the plane of a pair parts it from the tool by more than the contact distance, and at the start is its plane again; or it is beyond `reach` [m].
+  bool try_own_plane(const Scene& scene, Pair& pair, Scalar reach, int& work) noexcept {
     if (pair.is_beyond(reach)) return true;
     if (!pair.has_plane()) return false;
-    if (is_at_start_) return holds_at_start(scene, pair, pair.normal, scene.contact_distance(), work);
+    if (is_at_start_) return try_plane_at_start(scene, pair, pair.normal, scene.contact_distance(), work);
     return slack_along(scene, pair, pair.normal, work) > scene.contact_distance();
   }
 
-  /// Whether the plane of a pair measured here parts this one too: the other's rows hold the tool for both.
-  bool is_covered(const Scene& scene, Pair& pair) noexcept {
+  /// Makes the plane of a pair measured here this one's too if it parts it: the other's rows hold the tool for both.
+  bool try_cover(const Scene& scene, Pair& pair) noexcept {
     const auto cover = covers_.above(from_tool(pair), scene.margin() / 1000, scene.contact_distance());
     if (!cover) return false;
     pair.last_normal = cover->normal;

@@ -112,11 +112,11 @@ class WorkingSet {
   /// `longest_unused`, or as fillers than `longest_unused_filler`. Those that would be noticed again stay.
   /// @param contact_distance  what is nearer touches [m]
   /// @param noticed           what is nearer would be noticed [m]; 0 where nothing is, as there is no clearance
-  /// @param goes_on           the last tick left motion for this one, and ghosts that blocked it keep their rows
-  void age(Scalar contact_distance, Scalar noticed, bool goes_on) noexcept {
+  /// @param is_motion_left           the last tick left motion for this one, and ghosts that blocked it keep their rows
+  void age(Scalar contact_distance, Scalar noticed, bool is_motion_left) noexcept {
     for (int i = pairs_.size() - 1; i >= 0; --i) {
       Pair& pair = pairs_[i];
-      if (!goes_on) pair.keeps_ghost = false;
+      if (!is_motion_left) pair.keeps_ghost = false;
       ++pair.unused_ticks;
       if (noticed > Scalar(0) && pair.slack < noticed) continue;
       const bool touches = pair.slack < contact_distance && pair.state != PairState::repeats;

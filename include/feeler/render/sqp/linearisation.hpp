@@ -77,7 +77,7 @@ class Linearisation {
     }
     for (; next_quiet_ < quiet_.size(); ++next_quiet_) {
       Pair& pair = pairs_[quiet_[next_quiet_]];
-      if (!separation_.is_covered(scene, pair) && !measure_if_near(scene, pair, tick, limit)) return false;
+      if (!separation_.try_cover(scene, pair) && !measure_if_near(scene, pair, tick, limit)) return false;
     }
     return finish(scene, tick, limit);
   }
@@ -91,7 +91,7 @@ class Linearisation {
     start_at(pose, reach);
     for (Pair& pair : pairs_) {
       if (pair.state == PairState::left_out) continue;
-      if (!separation_.holds_at_start(scene, pair, pair.last_normal, scene.clearance().required(pair.slack), tick.work)) return false;
+      if (!separation_.try_plane_at_start(scene, pair, pair.last_normal, scene.clearance().required(pair.slack), tick.work)) return false;
       pair.is_ghost = pair.state == PairState::ghost;
     }
     const bool are_carried = carry_rows(scene, motion, tick, [&](const Row& row, const Pair& pair) {
@@ -220,7 +220,7 @@ class Linearisation {
   /// False where there is no work left for it.
   bool measure_if_near(const Scene& scene, Pair& pair, Tick<MeshScalar>& tick, int limit) noexcept {
     if (tick.work >= limit) return false;
-    if (separation_.is_left_out(scene, pair, reach_, tick.work)) {
+    if (separation_.try_own_plane(scene, pair, reach_, tick.work)) {
       pair.state = PairState::left_out;
       leaves_out_pairs_ = true;
     } else {

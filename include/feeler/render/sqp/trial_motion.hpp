@@ -88,10 +88,10 @@ class TrialMotionSearch {
 
   /// Rows where the motion starts, or where its last step ended; false where there is no work left to measure all pairs, and then to solve for a step.
   bool linearise(const Scene& scene, bool may_carry, Scalar reach, const WorkBudget& budget, Tick<MeshScalar>& tick) noexcept {
-    const bool goes_on = is_measuring_;
+    const bool is_resumed = is_measuring_;
     const bool has_worked = tick.work > 0;
     bool is_done;
-    if (goes_on) {
+    if (is_resumed) {
       is_done = linearisation_.go_on(scene, tick, budget.limit());
     } else if (rounds_.count == 0) {
       const auto is_too_late = [&] { return has_worked && !budget.allows_step(tick.work); };  // the next tick has work for it
@@ -103,7 +103,7 @@ class TrialMotionSearch {
       rounds_.is_measured = !(motion_.is_capped && linearisation_.carry_to(scene, rounds_.pose, tick));
       is_done = !rounds_.is_measured || linearisation_.move_to(scene, rounds_.pose, rounds_.assumes_valleys, tick, budget.limit());
     }
-    const bool may_solve = !rounds_.is_measured || budget.allows_step(tick.work) || (goes_on && tick.work == 0);
+    const bool may_solve = !rounds_.is_measured || budget.allows_step(tick.work) || (is_resumed && tick.work == 0);
     is_measuring_ = !(is_done && may_solve);
     return !is_measuring_;
   }
@@ -140,7 +140,7 @@ class TrialMotionSearch {
       motion_.motion = motion_.motion * (longest / length);
       return true;
     }
-    return is_last(scene, last, length);
+    return finish_round(scene, last, length);
   }
 
   /// With the contacts that the motion would break, and what stopped the last step where this one goes back.
@@ -156,10 +156,10 @@ class TrialMotionSearch {
     return leg;
   }
 
-  /// Whether the step just taken is the last one, and what is so of the motion.
+  /// Notes what is so of the motion after a step; whether that is the last one.
   /// @param last    length of the step [m]
   /// @param length  of the motion so far [m]
-  bool is_last(const Scene& scene, Scalar last, Scalar length) noexcept {
+  bool finish_round(const Scene& scene, Scalar last, Scalar length) noexcept {
     const auto& problem = linearisation_.problem();
     const bool rests_on_assumption = problem.rests_on_assumption();
     rounds_.assumes_valleys = rounds_.assumes_valleys && !rests_on_assumption;  // with it again, two linearisations would take turns
