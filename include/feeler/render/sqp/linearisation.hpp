@@ -1,7 +1,6 @@
 // The working set and its rows, at one pose at a time: measured only where a step may meet them, and only where the tool has moved.
 #pragma once
 
-#include <cassert>
 #include <limits>
 #include <optional>
 
@@ -152,7 +151,6 @@ class Linearisation {
     const auto so_far = [&] { return scene.idle_turns().motion_between(start_, separation_.pose()); };
     return kept_.keep_broken(so_far, motion, scene.margin(), problem_);
   }
-
   /// Remembers what stopped a step.
   void remember_stops(const Twist<Scalar>& step) noexcept { stops_.remember(step, problem_); }
   const auto& stops() const noexcept { return stops_; }
@@ -181,11 +179,7 @@ class Linearisation {
   using Standing = typename Problem::Standing;
 
   /// The pair of a row in the problem, or of the last step: none is dropped amid a motion.
-  const Pair& pair_of(const Row& row) const noexcept {
-    const int pair = pairs_.find(row.piece, row.triangle);
-    assert(pair >= 0);
-    return pairs_[pair];
-  }
+  const Pair& pair_of(const Row& row) const noexcept { return pairs_[pairs_.find(row.piece, row.triangle)]; }
 
   void start_at(const Pose<Scalar>& pose, Scalar reach) noexcept {
     separation_.put_at(pose, true);
@@ -254,9 +248,7 @@ class Linearisation {
       pair.state = PairState::has_rows;
       if (separation_.is_at_start()) keep_if_touching(scene, row, pair);
     }
-    if constexpr (is_convex) {
-      if (pair.state == PairState::has_rows && !pair.keeps_ghost && !closest.is_touching) separation_.add_cover(pair, closest.distance);
-    }
+    if (is_convex && pair.state == PairState::has_rows && !pair.keeps_ghost && !closest.is_touching) separation_.add_cover(pair, closest.distance);
   }
 
   /// Takes in, and measures, the neighbours of what was measured; false where the work ran out.
