@@ -92,7 +92,8 @@ class SurfaceAround {
   /// @param corner  the triangle's first [m]
   FEELER_FLATTEN bool is_under(const Vector& point, const Vector& corner) const noexcept { return find_under(point, corner) >= 0; }
 
-  /// The other triangle of the wall that a point is over, or for one beside the wall that at the rim where a walk to it ends; -1 if that ends at once.
+  /// The other triangle of the wall that a point is over, or for one beside the wall that at the rim where a walk to it ends; -1 if that ends at
+  /// once.
   /// @param corner  the triangle's first [m]
   int triangle_under(const Vector& point, const Vector& corner) const noexcept {
     int triangle = find_under(point, corner);

@@ -26,8 +26,8 @@ struct MadeElements {
 
 }  // namespace detail
 
-/// A list of at most `Capacity` elements, stored in place. A list costs what is in it: making one makes no element, and copying copies the elements in use
-/// only.
+/// A list of at most `Capacity` elements, stored in place. A list costs what is in it: making one makes no element, and copying copies the elements
+/// in use only.
 template <class T, int Capacity>
 class FixedVector {
   static constexpr bool is_made_in_use = std::is_trivially_destructible_v<T>;

@@ -31,8 +31,8 @@ struct HidingPlane {
   Scalar height;  ///< of that triangle along it, relative to the motion's origin [m]
 };
 
-/// The known triangles of one sweep. What lies in or behind the plane that parts one of them is no nearer to the tool than that one, as seen along the
-/// normal: of a wall that is cut into many triangles a few so tell all.
+/// The known triangles of one sweep. What lies in or behind the plane that parts one of them is no nearer to the tool than that one, as seen along
+/// the normal: of a wall that is cut into many triangles a few so tell all.
 template <class ScalarType>
 class KnownTriangles {
  public:

@@ -17,9 +17,9 @@ namespace feeler {
 /// A few planes that turn with the tool, its faces above all: just below them lies what is near a contact, and a plane fixed to the world does not
 /// follow a turning face so closely.
 ///
-/// In the axes of the tool a plane stands and a point y of the object moves along an arc, Z(t) = R(t)ᵀ(y − c(t)). The tool reaches only points
-/// that are within its radius ρ of its reference point c at some time, so |Z| ≤ ρ + |dp| all the while, which bounds how far the height of such a
-/// point strays from its chord (`MovingTool::sagitta_of_object`). What is below the plane by that much at both ends stays below it. How high the tool is
+/// In the axes of the tool a plane stands and a point y of the object moves along an arc, Z(t) = R(t)ᵀ(y − c(t)). The tool reaches only points that
+/// are within its radius ρ of its reference point c at some time, so |Z| ≤ ρ + |dp| all the while, which bounds how far the height of such a point
+/// strays from its chord (`MovingTool::sagitta_of_object`). What is below the plane by that much at both ends stays below it. How high the tool is
 /// above such a plane never changes: they belong to one tool.
 template <class ScalarType>
 class ToolPlanes {

@@ -24,12 +24,13 @@ namespace feeler {
 
 /// Dual active set: the minimum on some rows, whose forces do not pull, is followed to that of the problem.
 ///
-/// There are three ways, tried in this order. The minimum on the rows to start from, or on the only row there is (`detail::HeldMinimum`). A table that
-/// tells of up to 24 rows which are active, or which contradict each other (`detail::DualTableau`). Operators in six dimensions, for any number of
-/// rows (`detail::OperatorMethod`). What the first two find counts only where it meets the conditions of an optimum (`detail::KktCheck`); else the third
-/// begins with the rows that they found.
+/// There are three ways, tried in this order. The minimum on the rows to start from, or on the only row there is (`detail::HeldMinimum`). A table
+/// that tells of up to 24 rows which are active, or which contradict each other (`detail::DualTableau`). Operators in six dimensions, for any number
+/// of rows (`detail::OperatorMethod`). What the first two find counts only where it meets the conditions of an optimum (`detail::KktCheck`); else the
+/// third begins with the rows that they found.
+///
 /// Source: D. Goldfarb, A. Idnani, "A numerically stable dual method for solving strictly convex quadratic programs", Mathematical Programming 27
-/// (1983), with dual steepest-edge pricing.
+/// (1983), with dual steepest-edge pricing (`detail::BestRow`).
 ///
 /// Rows are met to `tolerance` [m]. Rows that make an angle below about 1e-8 rad with the span of the active
 /// ones count as dependent. The same input gives the same bits, with every number of lanes and,

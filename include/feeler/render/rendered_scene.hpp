@@ -38,8 +38,8 @@ auto working_tool(const Tool& tool) {
 }
 }  // namespace detail
 
-/// The constant part of a rendering, but for the axes of the metric. Poses that a contact method works on are those of the reference point: their translation is where it
-/// is in the world, not where the origin of the tool frame is.
+/// The constant part of a rendering, but for the axes of the metric. Poses that a contact method works on are those of the reference point: their
+/// translation is where it is in the world, not where the origin of the tool frame is.
 template <RigidTool ToolType>
 class RenderedScene {
  public:

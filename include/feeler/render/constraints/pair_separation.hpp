@@ -77,7 +77,8 @@ class PairSeparation {
     return true;
   }
 
-  /// Whether the plane of a pair parts it from the tool by more than the contact distance, and at the start is its plane again; or it is beyond `reach` [m].
+  /// Whether the plane of a pair parts it from the tool by more than the contact distance, and at the start is its plane again; or it is beyond
+  /// `reach` [m].
   bool try_own_plane(const Scene& scene, Pair& pair, Scalar reach, int& work) noexcept {
     if (pair.is_beyond(reach)) return true;
     if (!pair.has_plane()) return false;

@@ -49,8 +49,8 @@ struct WorkingPair {
   bool is_beyond(Scalar distance) const noexcept { return slack - moved > distance; }
 };
 
-/// The working set: constraints enter when they block a motion or are near where it ends, and leave as `age` says. Each is looked at wherever a motion
-/// starts or a step ends, which costs more than to meet a few of them again.
+/// The working set: constraints enter when they block a motion or are near where it ends, and leave as `age` says. Each is looked at wherever a
+/// motion starts or a step ends, which costs more than to meet a few of them again.
 template <class ScalarType, int pair_capacity = 48>
 class WorkingSet {
  public:
@@ -108,8 +108,8 @@ class WorkingSet {
     for (Pair& pair : pairs_) pair.moved += length;
   }
 
-  /// Counts a tick, and drops pairs that have been unused for longer than one; those that touch, and do not repeat the rows of others, for longer than
-  /// `longest_unused`, or as fillers than `longest_unused_filler`. Those that would be noticed again stay.
+  /// Counts a tick, and drops pairs that have been unused for longer than one; those that touch, and do not repeat the rows of others, for longer
+  /// than `longest_unused`, or as fillers than `longest_unused_filler`. Those that would be noticed again stay.
   /// @param contact_distance  what is nearer touches [m]
   /// @param noticed           what is nearer would be noticed [m]; 0 where nothing is, as there is no clearance
   /// @param is_motion_left           the last tick left motion for this one, and ghosts that blocked it keep their rows

@@ -22,12 +22,12 @@ namespace feeler {
 ///
 /// The penalty of the largest violation with price c (J. Nocedal, S. Wright, "Numerical Optimization", 2nd ed., section 17.2): exact as long as the
 /// multipliers of soft rows add up to no more than c. As it counts the largest violation, rows that repeat others change nothing. Rows are in
-/// conflict where a certificate of infeasibility names them, or one that is parallel, where a step of zero leaves them short by a hundredth of the most
-/// that is missing, or where their multipliers cost more than c; all others keep their soft bound.
+/// conflict where a certificate of infeasibility names them, or one that is parallel, where a step of zero leaves them short by a hundredth of the
+/// most that is missing, or where their multipliers cost more than c; all others keep their soft bound.
 ///
 /// The relaxation ξ grows from 0 to the least that will do. A QP without a solution names rows that contradict each other: Σ yₖ aₖ = 0 with y ≥ 0, so
-/// Σ yₖ boundₖ ≤ 0 must hold, which tells how much ξ must be. Where multipliers add up to more than c, they fall by 1ᵀ(A H⁻¹ Aᵀ)⁻¹ 1 for each unit of ξ, until
-/// other rows are active.
+/// Σ yₖ boundₖ ≤ 0 must hold, which tells how much ξ must be. Where multipliers add up to more than c, they fall by 1ᵀ(A H⁻¹ Aᵀ)⁻¹ 1 for each unit of
+/// ξ, until other rows are active.
 template <RealScalar ScalarType, int row_capacity>
 class ElasticRows {
  public:

@@ -86,7 +86,8 @@ class TrialMotionSearch {
     Scalar first = 0, previous = 0;  // lengths of steps [m]
   };
 
-  /// Rows where the motion starts, or where its last step ended; false where there is no work left to measure all pairs, and then to solve for a step.
+  /// Rows where the motion starts, or where its last step ended; false where there is no work left to measure all pairs, and then to solve for a
+  /// step.
   bool linearise(const Scene& scene, bool may_carry, Scalar reach, const WorkBudget& budget, Tick<MeshScalar>& tick) noexcept {
     const bool is_resumed = is_measuring_;
     const bool has_worked = tick.work > 0;
