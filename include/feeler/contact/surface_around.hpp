@@ -119,7 +119,7 @@ class SurfaceAround {
     const int vertex = own[std::size_t(corner)];
     const auto neighbours = mesh_.topology().vertex_neighbours(vertex);
     const Vector direction_world = world_from_tool_ * direction, normal_world = world_from_tool_ * normal;
-    return int(neighbours.size()) <= max_cone_valence && std::any_of(neighbours.begin(), neighbours.end(), [&](int other) {
+    return int(neighbours.size()) <= maximum_cone_valence && std::any_of(neighbours.begin(), neighbours.end(), [&](int other) {
              if (std::find(own.begin(), own.end(), other) != own.end()) return false;
              const Vector along = (mesh_.vertex(other) - mesh_.vertex(vertex)).template cast<Scalar>();
              return direction_world.dot(along) > Scalar(0) && normal_world.dot(along) > tolerance * along.norm();
