@@ -58,23 +58,16 @@ class FixedVector {
   }
   /// Removes element `i` in constant time; the last element takes its place.
   void swap_remove(int i) noexcept {
-    assert(i >= 0 && i < size_);
-    --size_;
-    if (i != size_) (*this)[i] = (*this)[size_];
+    if (i != size_ - 1) (*this)[i] = back();
+    pop_back();
   }
   void pop_back() noexcept {
     assert(size_ > 0);
     --size_;
   }
 
-  T& operator[](int i) noexcept {
-    assert(i >= 0 && i < size_);
-    return store_.elements[std::size_t(i)];
-  }
-  const T& operator[](int i) const noexcept {
-    assert(i >= 0 && i < size_);
-    return store_.elements[std::size_t(i)];
-  }
+  T& operator[](int i) noexcept { return store_.elements[place(i)]; }
+  const T& operator[](int i) const noexcept { return store_.elements[place(i)]; }
   T& back() noexcept { return (*this)[size_ - 1]; }
   const T& back() const noexcept { return (*this)[size_ - 1]; }
   T* begin() noexcept { return store_.elements.data(); }
@@ -83,6 +76,10 @@ class FixedVector {
   const T* end() const noexcept { return begin() + size_; }
 
  private:
+  std::size_t place(int i) const noexcept {
+    assert(i >= 0 && i < size_);
+    return std::size_t(i);
+  }
   void put(int i, const T& element) noexcept {
     if constexpr (is_made_in_use) {
       std::construct_at(&store_.elements[std::size_t(i)], element);

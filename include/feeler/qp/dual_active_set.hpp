@@ -66,8 +66,8 @@ class DualActiveSet {
         is_right(problem, *known, 1, solution))
       return QpStatus::optimal;
     if (problem.row_count <= Tableau::row_capacity) {
-      const Outcome outcome = solve_by_table(problem, solution);
-      if (outcome != Outcome::in_doubt) return outcome == Outcome::optimal ? QpStatus::optimal : QpStatus::infeasible;
+      const QpStatus status = solve_by_table(problem, solution);
+      if (status != in_doubt) return status;
       known = &tableau_.active();
     }
     inverse_.invert();
@@ -80,7 +80,7 @@ class DualActiveSet {
   static constexpr int table_lanes = (std::min)(lanes, 4);  // more make a few rows no quicker
   using Tableau = detail::DualTableau<Scalar, table_lanes>;
 
-  enum class Outcome { optimal, infeasible, in_doubt };
+  static constexpr QpStatus in_doubt = QpStatus::iteration_limit;  // of a way that is not the last one
 
   /// Whether the minimum on known rows is that of the problem: then that is all there is to do.
   [[gnu::always_inline]] inline bool is_right(const Problem& problem, const WarmStart& known, int iterations, Solution& solution) noexcept {
@@ -109,14 +109,14 @@ class DualActiveSet {
 
   /// Has a table find the active rows of a problem of some rows, or rows that contradict each other, and checks them.
   [[gnu::noinline]]
-  Outcome solve_by_table(const Problem& problem, Solution& solution) noexcept {
+  QpStatus solve_by_table(const Problem& problem, Solution& solution) noexcept {
     const bool is_found = tableau_.find(problem, problem.bounds.data(), inverse_, gradient_, tolerance);
-    if (!is_found && tableau_.refused() < 0) return Outcome::in_doubt;
+    if (!is_found && tableau_.refused() < 0) return in_doubt;
     const WarmStart& active = tableau_.active();
     const auto change_for = [this](const auto& distances) { return this->tableau_.change_for(distances); };
     guess_.place(problem, problem.bounds.data(), active, tableau_.multipliers(), inverse_, gradient_, change_for, tolerance / 2);
-    if (is_found) return is_right(problem, active, 1 + tableau_.steps(), solution) ? Outcome::optimal : Outcome::in_doubt;
-    return is_contradicted(problem, solution) ? Outcome::infeasible : Outcome::in_doubt;
+    if (is_found) return is_right(problem, active, 1 + tableau_.steps(), solution) ? QpStatus::optimal : in_doubt;
+    return is_contradicted(problem, solution) ? QpStatus::infeasible : in_doubt;
   }
 
   /// Whether the row that a table refuses contradicts the active ones.
