@@ -1,8 +1,6 @@
 // The part of a triangle that is near a tool: of a large one the rest costs a query its digits.
 #pragma once
 
-#include <array>
-
 #include "feeler/core/fixed_vector.hpp"
 #include "feeler/core/scalar.hpp"
 #include "feeler/tool/convex_tool.hpp"

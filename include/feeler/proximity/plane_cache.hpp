@@ -1,7 +1,6 @@
 // A few planes that kept parting the tool from its surroundings, tried before anything is measured.
 #pragma once
 
-#include <algorithm>
 #include <array>
 
 #include "feeler/core/index.hpp"

@@ -1,7 +1,6 @@
 // Planes fixed to the tool that kept parting it from triangles, tried before such a triangle is measured.
 #pragma once
 
-#include <algorithm>
 #include <array>
 #include <utility>
 

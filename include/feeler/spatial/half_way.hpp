@@ -4,7 +4,6 @@
 #include <cmath>
 #include <optional>
 
-#include "feeler/core/scalar.hpp"
 #include "feeler/spatial/pose.hpp"
 
 namespace feeler {

@@ -11,7 +11,6 @@
 #include "feeler/render/constraints/covering_planes.hpp"
 #include "feeler/render/constraints/working_set.hpp"
 #include "feeler/spatial/pose.hpp"
-#include "feeler/tool/convex_tool.hpp"
 #include "feeler/tool/swept_tool.hpp"
 
 namespace feeler {

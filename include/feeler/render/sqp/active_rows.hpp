@@ -2,7 +2,6 @@
 #pragma once
 
 #include "feeler/core/fixed_vector.hpp"
-#include "feeler/core/scalar.hpp"
 #include "feeler/spatial/twist.hpp"
 
 namespace feeler {

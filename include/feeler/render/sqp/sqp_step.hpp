@@ -1,7 +1,6 @@
 // The step of one linearisation: its QPs, and the rows that these turn out to need.
 #pragma once
 
-#include "feeler/core/scalar.hpp"
 #include "feeler/qp/qp_solver.hpp"
 #include "feeler/render/rendered_scene.hpp"
 #include "feeler/render/sqp/linearisation.hpp"

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 
-#include "feeler/core/scalar.hpp"
 #include "feeler/qp/qp_solver.hpp"
 #include "feeler/render/rendered_scene.hpp"
 #include "feeler/render/sqp/linearisation.hpp"
