@@ -17,8 +17,8 @@ namespace feeler {
 /// follow a turning face so closely.
 ///
 /// In the axes of the tool a plane stands and a point y of the object moves along an arc, Z(t) = R(t)ᵀ(y − c(t)). The tool reaches only points that
-/// are within its radius ρ of its reference point c at some time, so |Z| ≤ ρ + |dp| all the while, which bounds how far the height of such a point
-/// strays from its chord (`MovingTool::sagitta_of_object`). What is below the plane by that much at both ends stays below it. How high the tool is
+/// are within its radius ρ of its reference point c at some time, so |Z| ≤ ρ + |dp| all the while. That bounds how far the height of such a point
+/// strays from its chord (`MovingTool::sagitta_of_object`): what is below the plane by as much at both ends stays below it. How high the tool is
 /// above such a plane never changes: they belong to one tool.
 template <class ScalarType>
 class ToolPlanes {

@@ -22,10 +22,10 @@ namespace feeler::detail {
 /// The dual active-set method of Goldfarb and Idnani on the table A·H⁻¹·Aᵀ of some rows A.
 ///
 /// An entry of the table is what the force of one row adds to another. Where a row becomes active it is swept: one outer product takes what its
-/// force does from all others, and then the table tells how the forces of the active rows follow that of the next one, and how much every other
-/// row is free to move. A step costs a column of the table and a division, where operators in six dimensions are a chain of sums. Source:
-/// J. H. Goodnight, "A tutorial on the SWEEP operator", The American Statistician 33 (1979); forces of active rows are kept in a unit in which
-/// the row's own column stays as it is.
+/// force does from all others. Then the table tells how the forces of the active rows follow that of the next one, and how much every other row is
+/// free to move. A step costs a column of the table and a division, where operators in six dimensions are a chain of sums. Forces of active rows are
+/// kept in a unit in which the row's own column stays as it is.
+/// Source: J. H. Goodnight, "A tutorial on the SWEEP operator", The American Statistician 33 (1979).
 ///
 /// Rows are chosen as by `RowScan`, and every lane computed alike, however many there are. Where a row all but depends on active ones, by an angle
 /// below 3e-4 rad, the table has too few digits of it left, and its column is computed afresh.

@@ -17,9 +17,9 @@ namespace feeler::detail {
 
 /// The Schur complement S = A·H⁻¹·Aᵀ of some rows A in the system of equations of a held minimum, and S⁻¹ as the product of its sweeps.
 ///
-/// Two rows at a time are swept out of those behind them and out of the right side, which then is the solution: there is no way back as after a
-/// triangular factor, and two rows cost the chain one division, a product and a difference, in registers. Without pivoting, as S is positive
-/// definite, and from its upper triangle, as it is symmetric. Every lane is computed alike, however many there are.
+/// Two rows at a time are swept out of those behind them and out of the right side, which then is the solution. There is no back substitution as
+/// after a triangular factor, and the chain of what waits for each other has one division, a product and a difference for two rows. No pivoting, as
+/// S is positive definite; only its upper triangle, as it is symmetric. Every lane is computed alike, however many there are.
 /// Sources: J. Nocedal, S. J. Wright, "Numerical Optimization" (2006), section 16.2, the Schur-complement method; G. H. Golub, C. F. Van Loan,
 /// "Matrix Computations" (2013), section 3.2, for Gauss transformations, and 4.4, for pivots of two rows.
 /// @tparam Rows  `HeldRows`

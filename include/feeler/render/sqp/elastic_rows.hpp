@@ -21,13 +21,13 @@ namespace feeler {
 /// Solves  min ½ dᵀ H d + gᵀ d + c ξ  subject to  aₖᵀ d ≥ max(hardₖ, softₖ − ξ) for rows in conflict, aₖᵀ d ≥ softₖ for all others,  ξ ≥ 0.
 ///
 /// The penalty of the largest violation with price c (J. Nocedal, S. Wright, "Numerical Optimization", 2nd ed., section 17.2): exact as long as the
-/// multipliers of soft rows add up to no more than c. As it counts the largest violation, rows that repeat others change nothing. Rows are in
-/// conflict where a certificate of infeasibility names them, or one that is parallel, where a step of zero leaves them short by a hundredth of the
-/// most that is missing, or where their multipliers cost more than c; all others keep their soft bound.
+/// multipliers of soft rows add up to no more than c. As it counts the largest violation, rows that repeat others change nothing. A row is in conflict
+/// where a certificate of infeasibility names it, or one that is parallel; where a step of zero leaves it short by a hundredth of the most that is
+/// missing; or where multipliers cost more than c and it is active. All others keep their soft bound.
 ///
-/// The relaxation ξ grows from 0 to the least that will do. A QP without a solution names rows that contradict each other: Σ yₖ aₖ = 0 with y ≥ 0, so
-/// Σ yₖ boundₖ ≤ 0 must hold, which tells how much ξ must be. Where multipliers add up to more than c, they fall by 1ᵀ(A H⁻¹ Aᵀ)⁻¹ 1 for each unit of
-/// ξ, until other rows are active.
+/// The relaxation ξ grows from 0 to the least that will do. A QP without a solution names rows that contradict each other, Σ yₖ aₖ = 0 with y ≥ 0.
+/// So Σ yₖ boundₖ ≤ 0 must hold, which tells how much ξ must be. Where multipliers add up to more than c, they fall by 1ᵀ(A H⁻¹ Aᵀ)⁻¹ 1 for each unit
+/// of ξ, until other rows are active.
 template <RealScalar ScalarType, int row_capacity>
 class ElasticRows {
  public:

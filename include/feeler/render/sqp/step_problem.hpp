@@ -20,10 +20,10 @@ namespace feeler {
 
 /// Solves for one step d of the tool: min f(d) + price · ξ subject to gapₖ + Jₖ d ≥ max(leastₖ, margin − ξ).
 ///
-/// ξ is what is missing of the margin where most is missing (`ElasticRows`), and its price is of the order of the largest contact force: no step goes
-/// away from the hand for more than the margin is worth. `leastₖ` is what the pair has at the last certified pose, of which a fifth of the margin is
-/// enough; as that pose meets it, a step exists. Where there is no clearance at all it is 0. Many rows ask the same then, and chance would tell which
-/// of them hold the tool: those that have not held it lately are asked for a picometre less, so that it is the same few.
+/// ξ is what is missing of the margin where most is missing (`ElasticRows`). Its price is of the order of the largest contact force, so no step goes
+/// away from the hand for more than the margin is worth. `leastₖ` is the separation of the pair at the last certified pose, or a fifth of the margin
+/// where that is less. That pose meets it, so a step exists. Without clearance it is 0. Many rows ask the same then, and chance would tell which of
+/// them hold the tool: those that have not held it lately are asked for a picometre less, so that the same few hold it.
 /// @tparam RowType  a `ContactRow`, or one with another curvature
 template <QpSolver Solver, int rows = 128, class RowType = ContactRow<typename Solver::Scalar>>
 class StepProblem {
