@@ -26,8 +26,6 @@ struct Track {
   std::vector<double> microseconds;
 };
 
-bool is_same(const Pose<double>& a, const Pose<double>& b) { return a.translation == b.translation && a.rotation.coeffs() == b.rotation.coeffs(); }
-
 /// Keeps the first run's poses and the least time of every tick of the runs.
 /// @return whether the poses of the runs are the same
 bool merge(Track& kept, Track&& run) {
@@ -37,7 +35,7 @@ bool merge(Track& kept, Track&& run) {
   }
   const std::size_t both = std::min(kept.poses.size(), run.poses.size());
   for (std::size_t i = 0; i < both; ++i) kept.microseconds[i] = std::min(kept.microseconds[i], run.microseconds[i]);
-  return std::equal(run.poses.begin(), run.poses.begin() + std::ptrdiff_t(both), kept.poses.begin(), is_same);
+  return std::equal(run.poses.begin(), run.poses.begin() + std::ptrdiff_t(both), kept.poses.begin());
 }
 
 /// One run of all contenders; the last track is that of the distance query, with its answers.

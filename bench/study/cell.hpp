@@ -12,7 +12,7 @@ struct Cell {
   std::string rendering = "double";  ///< scalar, QP solver and contact method, as one name
   double margin = 1e-6;              ///< [m]
   int budget = 128;                  ///< of work a tick
-  int iterations = 12;               ///< linearisations a tick, at most
+  int iterations = 12;               ///< a tick, at most
   int rate = 1000;                   ///< ticks a second
   double scale = 1;                  ///< of all lengths of object, tool and motion
   double offset = 0;                 ///< of the scene from the origin, along the diagonal [m]

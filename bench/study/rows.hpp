@@ -25,7 +25,7 @@ struct Choice {
 };
 inline const std::array<Choice, 6> choices{{{"margin_m", "margin  [m]", Cell().margin},
                                             {"budget", "work budget", double(Cell().budget)},
-                                            {"iterations", "linearisations a tick, at most", double(Cell().iterations)},
+                                            {"iterations", "iterations a tick, at most", double(Cell().iterations)},
                                             {"rate_hz", "rate  [Hz]", double(Cell().rate)},
                                             {"scale", "scale of the scene", Cell().scale},
                                             {"offset_m", "distance of the scene from the origin  [m]", Cell().offset}}};

@@ -17,8 +17,6 @@ test::CheckedTool checked_tool_of(const scenes::Scene& scene) {
   return std::visit([](const auto& tool) { return test::checked_tool(tool); }, scene.tool);
 }
 
-bool is_same(const Pose<double>& a, const Pose<double>& b) { return a.translation == b.translation && a.rotation.coeffs() == b.rotation.coeffs(); }
-
 /// Checks one tick after the other and keeps the deepest of each kind.
 class RunChecker {
  public:
@@ -54,7 +52,7 @@ class RunChecker {
 
   double depth_between(const Pose<double>& from, const Pose<double>& to, Verification& result) const {
     double deepest = 0.0;
-    if (is_same(from, to)) return deepest;
+    if (from == to) return deepest;
     const auto pose0 = test::checked_pose(from), pose1 = test::checked_pose(to);
     for (int i = 1; i <= places_between; ++i) {
       const auto between = test::pose_on_path(pose0, pose1, test::WideReal(i) / (places_between + 1));

@@ -172,7 +172,7 @@ DeviceWrench ForceSafety::allowed(const Tick& tick, ForceFault passing) noexcept
     share_ += step_time_ / limits_.ramp_time;
     if (share_ >= 1) phase_ = ForcePhase::on;
   }
-  // Shortened before and after the ramp: a huge wish must not make the ramp steep.
+  // Shortened before the ramp: a huge wish must not make it steep.
   const auto limit = [&](double maximum, double continuous, double heat) {
     const double left = continuous + (maximum - continuous) * share_left(heat, warm_heat);
     return left * share_left(tick.state.motor_temperature, limits_.warm_temperature);

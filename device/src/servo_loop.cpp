@@ -105,7 +105,7 @@ bool ServoLoop::render_to_device(const ServoTick& tick) {
   const std::int64_t now = clock_.now();
   force_tick_.now = double(now) * 1e-9;
   force_tick_.age = device_->lives_by_the_clock() ? double(now - read_at) * 1e-9 : 0;
-  if (was_let_go()) force_tick_.age = std::numeric_limits<double>::infinity();  // late, whatever this clock says
+  if (note_let_go()) force_tick_.age = std::numeric_limits<double>::infinity();  // late, whatever this clock says
 
   const DeviceWrench pushed = safety_->step(force_tick_);
   is_let_go_ = is_let_go_ && safety_->phase() == ForcePhase::fading;
@@ -120,7 +120,7 @@ bool ServoLoop::render_to_device(const ServoTick& tick) {
   return force_tick_.status != DeviceStatus::fault && force_tick_.status != DeviceStatus::not_open;
 }
 
-bool ServoLoop::was_let_go() noexcept {
+bool ServoLoop::note_let_go() noexcept {
   if (!watchdog_ || !watchdog_->has_let_go()) return false;
   ++report_.let_go;
   return is_let_go_ = true;

@@ -123,7 +123,7 @@ void check_hierarchy(const TriangleMesh<Scalar>& mesh) {
     const Entry entry = stack.back();
     stack.pop_back();
     ++node_visits[entry.node];
-    is_shallow = is_shallow && entry.depth <= bvh.max_depth;
+    is_shallow = is_shallow && entry.depth <= bvh.maximum_depth;
     const BvhNode& node = bvh.nodes()[entry.node];
     for (int i = 0; i < BvhNode::width; ++i) {
       const std::int32_t child = node.child[i];

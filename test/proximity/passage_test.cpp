@@ -352,8 +352,8 @@ BOOST_AUTO_TEST_CASE(a_plane_that_turns_follows_edges_that_roll_where_no_fixed_p
   const feeler::MovingTool<feeler::Segment<double>> moving(line, Vector::Zero(), 0.1, {}, {Vector::Zero(), Vector(0, 8e-3, 0)});
   const auto start = moving.frame_at(0), end = moving.frame_at(1);
   const feeler::detail::HeldPlane<double> first{Vector::UnitZ(), 1e-6}, last{Vector(std::sin(8e-3), 0, std::cos(8e-3)), 1e-6 * std::cos(8e-3)};
-  BOOST_TEST(feeler::detail::held_part(moving, corners, first, start, end, 1e-7, true).part < 1);
-  BOOST_TEST(feeler::detail::held_part(moving, corners, last, end, start, 1e-7, false).part < 1);
+  BOOST_TEST(feeler::detail::held_fraction(moving, corners, first, start, end, 1e-7, true).fraction < 1);
+  BOOST_TEST(feeler::detail::held_fraction(moving, corners, last, end, start, 1e-7, false).fraction < 1);
   BOOST_TEST(feeler::detail::turning_plane_holds(moving, corners, first, start, last, end, 1e-7));
   int work = 0;
   BOOST_TEST(!pass(moving, {corners, Vector::Zero(), {}, true}, start, end, Clearance<double>{}, work).is_blocked);

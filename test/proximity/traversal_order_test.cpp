@@ -92,7 +92,7 @@ BOOST_AUTO_TEST_CASE(of_the_children_of_a_node_the_one_that_the_motion_comes_to_
 
 BOOST_AUTO_TEST_CASE_TEMPLATE(a_tree_of_the_greatest_depth_has_room, Order, Orders) {
   // Every node is full, and named by how deep it is: far more than can be visited, so that only a part is.
-  constexpr int depth = feeler::Bvh<double>::max_depth - 1;
+  constexpr int depth = feeler::Bvh<double>::maximum_depth - 1;
   Order order(Eigen::Vector3f::Zero());
   long leaves = 0;
   for (int i = 0; i < 300000; ++i) {

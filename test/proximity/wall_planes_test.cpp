@@ -149,8 +149,8 @@ BOOST_AUTO_TEST_CASE(a_wall_that_the_tool_sinks_into_is_parted_until_it_comes_ne
     BOOST_TEST(deepest.x() <= corners.row(0).maxCoeff() + 1e-9);
     BOOST_TEST(deepest.y() >= corners.row(1).minCoeff() - 1e-9);
     BOOST_TEST(deepest.y() <= corners.row(1).maxCoeff() + 1e-9);
-    BOOST_TEST(planes->is_asked_first(mesh, 0, moving, start));
-    BOOST_TEST(!planes->is_asked_first(mesh, 0, moving, start));
+    BOOST_TEST(planes->note_question(mesh, 0, moving, start));
+    BOOST_TEST(!planes->note_question(mesh, 0, moving, start));
   }
 }
 

@@ -3,6 +3,7 @@
 
 #include <array>
 
+#include "feeler/core/index.hpp"
 #include "feeler/qp/problem.hpp"
 #include "feeler/qp/reference/ldlt6.hpp"
 #include "feeler/qp/reference/optimality.hpp"
@@ -37,13 +38,13 @@ class DenseProblem {
     status = conclude(problem, factor_, Vector6<double>(-factor_.solve(problem.gradient)), {}, tolerance, solution);
     if (status == QpStatus::optimal || problem.row_count == 0) return false;
     for (int i = 0; i < 6; ++i) {
-      gradient[at(i)] = problem.gradient[i];
-      for (int j = 0; j < 6; ++j) hessian[at(6 * i + j)] = problem.hessian(i, j);
+      gradient[index(i)] = problem.gradient[i];
+      for (int j = 0; j < 6; ++j) hessian[index(6 * i + j)] = problem.hessian(i, j);
     }
     for (int k = 0; k < problem.row_count; ++k) {
-      for (int i = 0; i < 6; ++i) rows[at(6 * k + i)] = problem.rows[at(k)][i];
-      lower[at(k)] = problem.bounds[at(k)];
-      upper[at(k)] = infinity;
+      for (int i = 0; i < 6; ++i) rows[index(6 * k + i)] = problem.rows[index(k)][i];
+      lower[index(k)] = problem.bounds[index(k)];
+      upper[index(k)] = infinity;
     }
     return true;
   }
@@ -55,7 +56,7 @@ class DenseProblem {
                Solution& solution) const noexcept {
     const int iterations = solution.iterations;
     QpMultipliers<double> ours{};
-    for (int k = 0; k < problem.row_count; ++k) ours[at(k)] = sign * multipliers[k];
+    for (int k = 0; k < problem.row_count; ++k) ours[index(k)] = sign * multipliers[k];
     const Vector6<double> x(step);
     const QpStatus status = conclude(problem, factor_, x, ours, tolerance, solution);
     solution.iterations = iterations;
@@ -63,7 +64,6 @@ class DenseProblem {
   }
 
  private:
-  static std::size_t at(int i) noexcept { return std::size_t(i); }
   Ldlt6<double> factor_;
 };
 

@@ -5,6 +5,7 @@
 #include <array>
 
 #include "feeler/adapter/dense_problem.hpp"
+#include "feeler/core/index.hpp"
 #include "feeler/qp/qp_solver.hpp"
 
 namespace feeler {
@@ -49,25 +50,23 @@ class OsqpSolver {
   }
 
  private:
-  static std::size_t at(int i) noexcept { return std::size_t(i); }
-
   /// Both matrices by columns, zeros and all.
   void fill_columns(const QpProblem<double>& problem) noexcept {
     int entry = 0;
     for (int j = 0; j < 6; ++j) {
-      triangle_starts_[at(j)] = entry;
+      triangle_starts_[index(j)] = entry;
       for (int i = 0; i <= j; ++i, ++entry) {
-        upper_triangle_[at(entry)] = problem.hessian(i, j);
-        triangle_rows_[at(entry)] = i;
+        upper_triangle_[index(entry)] = problem.hessian(i, j);
+        triangle_rows_[index(entry)] = i;
       }
     }
     triangle_starts_[6] = entry;
     entry = 0;
     for (int j = 0; j < 6; ++j) {
-      column_starts_[at(j)] = entry;
+      column_starts_[index(j)] = entry;
       for (int k = 0; k < problem.row_count; ++k, ++entry) {
-        columns_[at(entry)] = problem.rows[at(k)][j];
-        column_rows_[at(entry)] = k;
+        columns_[index(entry)] = problem.rows[index(k)][j];
+        column_rows_[index(entry)] = k;
       }
     }
     column_starts_[6] = entry;

@@ -105,8 +105,8 @@ class ContactPatch {
 
   /// Whether the only row is that of the closest points, in the triangle's own plane: other triangles of its wall hold the tool as well.
   bool is_filler() const noexcept { return is_filler_; }
-  /// After `find`: calls `visit(triangle)` for each triangle in the plane of this one, beside it, that is under a tool vertex no farther from that plane
-  /// than `gap` [m]: it holds that vertex. Some are visited more than once.
+  /// After `find`: calls `visit(triangle)` for each triangle in the plane of this one, beside it, that is under a tool vertex no farther from that
+  /// plane than `gap` [m]: it holds that vertex. Some are visited more than once.
   template <class Visit>
   void visit_continuations(Scalar gap, const Visit& visit) const noexcept {
     using std::abs;

@@ -98,7 +98,9 @@ struct ContactRow {
     return j;
   }
 
-  /// Adds a multiple of C, the second derivative of the separation by the step, to the lower triangle of a matrix, number by number: whole blocks would wait for each other in memory.
+  /// Adds a multiple of C, the second derivative of the separation by the step, to the lower triangle of a matrix.
+  ///
+  /// It does so number by number: whole blocks would wait for each other in memory.
   ///
   /// A vertex on a face moves by Exp(w)r, so its part is A(n, r). A face on a vertex z sees it
   /// move by Exp(−w)(z − dp). Where edges u (object) and v (tool) cross, n ∝ v × u turns by δn = B w, and δn·δx is added.

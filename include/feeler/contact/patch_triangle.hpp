@@ -25,7 +25,7 @@ class PatchTriangle {
   inline static const Scalar least_cosine = Scalar(9) / 10;
 
   /// Face and side of a triangle; its edges are not known yet.
-  /// @param corners  a corner a column [m]
+  /// @param corners  one corner in each column [m]
   /// @param normal   unit, of the plane that parts it and the tool, to the tool
   void set(const Matrix3<Scalar>& corners, const Vector& normal) noexcept {
     using std::sqrt;

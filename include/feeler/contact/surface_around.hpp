@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <cstddef>
 
 #include "feeler/core/flatten.hpp"
@@ -92,7 +91,8 @@ class SurfaceAround {
   /// @param corner  the triangle's first [m]
   FEELER_FLATTEN bool is_under(const Vector& point, const Vector& corner) const noexcept { return find_under(point, corner) >= 0; }
 
-  /// The other triangle of the wall that a point is over, or for one beside the wall that at the rim where a walk to it ends; -1 if that ends at once.
+  /// The other triangle of the wall that a point is over, or for one beside the wall that at the rim where a walk to it ends; -1 if that ends at
+  /// once.
   /// @param corner  the triangle's first [m]
   int triangle_under(const Vector& point, const Vector& corner) const noexcept {
     int triangle = find_under(point, corner);
@@ -118,7 +118,7 @@ class SurfaceAround {
     const int vertex = own[std::size_t(corner)];
     const auto neighbours = mesh_.topology().vertex_neighbours(vertex);
     const Vector direction_world = world_from_tool_ * direction, normal_world = world_from_tool_ * normal;
-    return int(neighbours.size()) <= max_cone_valence && std::any_of(neighbours.begin(), neighbours.end(), [&](int other) {
+    return int(neighbours.size()) <= maximum_cone_valence && std::any_of(neighbours.begin(), neighbours.end(), [&](int other) {
              if (std::find(own.begin(), own.end(), other) != own.end()) return false;
              const Vector along = (mesh_.vertex(other) - mesh_.vertex(vertex)).template cast<Scalar>();
              return direction_world.dot(along) > Scalar(0) && normal_world.dot(along) > tolerance * along.norm();

@@ -13,8 +13,8 @@
 
 namespace feeler {
 
-/// The outermost points of where a convex face lies over a wall, as far as they are points of the wall's rim: in each of eight directions the triangle
-/// that has it. Such a face is held there, and at those of its vertices that are over the wall; what is between them holds it no better.
+/// The outermost points of where a convex face lies over a wall, as far as they are points of the wall's rim: in each of eight directions the
+/// triangle that has it. Such a face is held there, and at those of its vertices that are over the wall; what is between them holds it no better.
 ///
 /// Each edge of the rim is clipped by the face (Cyrus and Beck, 1978), seen along the wall's normal.
 template <class Scalar, class MeshScalar>

@@ -5,6 +5,8 @@
 #include <numeric>
 #include <vector>
 
+#include "feeler/core/index.hpp"
+
 namespace feeler::detail {
 
 /// The numbers from 0 on, each in a set of its own until that is joined to another. A set is known by one of its numbers, its root.
@@ -16,16 +18,14 @@ class DisjointSets {
   /// Appends a number.
   void add() { parent_.push_back(int(parent_.size())); }
   int root(int i) noexcept {
-    while (!is_root(i)) i = parent_[at(i)] = parent_[at(parent_[at(i)])];
+    while (!is_root(i)) i = parent_[index(i)] = parent_[index(parent_[index(i)])];
     return i;
   }
-  bool is_root(int i) const noexcept { return parent_[at(i)] == i; }
+  bool is_root(int i) const noexcept { return parent_[index(i)] == i; }
   /// The set of one number joins that of another, whose root stays.
-  void join(int from, int to) noexcept { parent_[at(root(from))] = root(to); }
+  void join(int from, int to) noexcept { parent_[index(root(from))] = root(to); }
 
  private:
-  static std::size_t at(int i) noexcept { return std::size_t(i); }
-
   std::vector<int> parent_;
 };
 

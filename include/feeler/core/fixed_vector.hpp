@@ -26,8 +26,8 @@ struct MadeElements {
 
 }  // namespace detail
 
-/// A list of at most `Capacity` elements, stored in place. A list costs what is in it: making one makes no element, and copying copies the elements in use
-/// only.
+/// A list of at most `Capacity` elements, stored in place. A list costs what is in it: making one makes no element, and copying copies the elements
+/// in use only.
 template <class T, int Capacity>
 class FixedVector {
   static constexpr bool is_made_in_use = std::is_trivially_destructible_v<T>;
@@ -58,14 +58,16 @@ class FixedVector {
   }
   /// Removes element `i` in constant time; the last element takes its place.
   void swap_remove(int i) noexcept {
-    assert(i >= 0 && i < size_);
-    --size_;
-    if (i != size_) (*this)[i] = (*this)[size_];
+    if (i != size_ - 1) (*this)[i] = back();
+    pop_back();
   }
-  void pop_back() noexcept { --size_; }
+  void pop_back() noexcept {
+    assert(size_ > 0);
+    --size_;
+  }
 
-  T& operator[](int i) noexcept { return store_.elements[std::size_t(i)]; }
-  const T& operator[](int i) const noexcept { return store_.elements[std::size_t(i)]; }
+  T& operator[](int i) noexcept { return store_.elements[place(i)]; }
+  const T& operator[](int i) const noexcept { return store_.elements[place(i)]; }
   T& back() noexcept { return (*this)[size_ - 1]; }
   const T& back() const noexcept { return (*this)[size_ - 1]; }
   T* begin() noexcept { return store_.elements.data(); }
@@ -74,6 +76,10 @@ class FixedVector {
   const T* end() const noexcept { return begin() + size_; }
 
  private:
+  std::size_t place(int i) const noexcept {
+    assert(i >= 0 && i < size_);
+    return std::size_t(i);
+  }
   void put(int i, const T& element) noexcept {
     if constexpr (is_made_in_use) {
       std::construct_at(&store_.elements[std::size_t(i)], element);

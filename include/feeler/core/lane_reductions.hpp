@@ -2,7 +2,6 @@
 #pragma once
 
 #include <bit>
-#include <cstddef>
 #include <utility>
 
 #if defined(__GNUC__) && defined(__SSE2__)

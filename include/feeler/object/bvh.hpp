@@ -34,7 +34,7 @@ struct alignas(16) BvhLeaf {
   float corner[3][3][width];     ///< by corner and axis; the nearest floats
   std::int32_t triangle[width];  ///< −1 where there is none
 };
-static_assert(BvhLeaf::width == BvhBuilder::max_leaf_size);
+static_assert(BvhLeaf::width == BvhBuilder::maximum_leaf_size);
 
 /// Axis-aligned boxes around triangles, in a tree of nodes with four children. Node 0 is the root.
 ///
@@ -46,8 +46,8 @@ static_assert(BvhLeaf::width == BvhBuilder::max_leaf_size);
 template <RealScalar Scalar>
 class Bvh {
  public:
-  static constexpr int max_depth = BvhBuilder::max_depth;  ///< nodes on a path
-  static constexpr int stack_capacity = (BvhNode::width - 1) * max_depth + 1;  ///< children that a traversal has still to visit
+  static constexpr int maximum_depth = BvhBuilder::maximum_depth;  ///< nodes on a path
+  static constexpr int stack_capacity = (BvhNode::width - 1) * maximum_depth + 1;  ///< children that a traversal has still to visit
 
   Bvh() = default;
   /// @param vertices   3-vectors [m], finite

@@ -21,12 +21,12 @@ struct BvhItem {
 /// Binned top-down builder (Wald, "On fast construction of SAH-based bounding volume hierarchies", 2007).
 ///
 /// Splits at the best of 15 planes on each axis. Where no plane separates the centres, and where the depth
-/// bound comes near, it halves the list instead. Leaves hold up to `max_leaf_size` items.
+/// bound comes near, it halves the list instead. Leaves hold up to `maximum_leaf_size` items.
 /// @cost  O(n log n); 28 bytes of scratch per item, which the caller brings
 class BvhBuilder {
  public:
-  static constexpr int max_leaf_size = 4;
-  static constexpr int max_depth = 64;  ///< nodes on a path from the root to a leaf
+  static constexpr int maximum_leaf_size = 4;
+  static constexpr int maximum_depth = 64;  ///< nodes on a path from the root to a leaf
 
   /// A box, and its two children or its items.
   struct Node {
@@ -41,7 +41,7 @@ class BvhBuilder {
 
   /// @param items        at least one; reordered so that leaf items are `items[first..first+count)`
   /// @param depth_limit  nodes on a path; kept unless halving the list alone needs more
-  explicit BvhBuilder(std::vector<BvhItem>& items, int depth_limit = max_depth) : items_(items), depth_limit_(depth_limit) {
+  explicit BvhBuilder(std::vector<BvhItem>& items, int depth_limit = maximum_depth) : items_(items), depth_limit_(depth_limit) {
     nodes_.reserve(items.size());
     nodes_.push_back({});
     std::vector<Task> tasks{{0, 0, std::int32_t(items.size()), 1}};
@@ -49,7 +49,7 @@ class BvhBuilder {
       const Task task = tasks.back();
       tasks.pop_back();
       const Box centres = enclose(task);
-      if (task.end - task.begin <= max_leaf_size) {
+      if (task.end - task.begin <= maximum_leaf_size) {
         nodes_[std::size_t(task.node)].first = task.begin;
         nodes_[std::size_t(task.node)].count = task.end - task.begin;
         continue;
@@ -120,7 +120,7 @@ class BvhBuilder {
   std::int32_t split(const Task& task, const Box& centres) {
     const std::int32_t count = task.end - task.begin;
     // Halving from here on needs this many more levels, and one for the leaves.
-    const int levels_to_halve = int(std::bit_width(std::uint32_t(count - 1) / max_leaf_size)) + 1;
+    const int levels_to_halve = int(std::bit_width(std::uint32_t(count - 1) / maximum_leaf_size)) + 1;
     std::size_t axis = 0;
     for (std::size_t k = 1; k < 3; ++k)
       if (centres.upper[k] - centres.lower[k] > centres.upper[axis] - centres.lower[axis]) axis = k;

@@ -11,6 +11,7 @@
 #include <Eigen/Geometry>
 
 #include "feeler/core/disjoint_sets.hpp"
+#include "feeler/core/index.hpp"
 #include "feeler/core/scalar.hpp"
 #include "feeler/object/ray_crossing.hpp"
 #include "feeler/object/triangle_mesh.hpp"
@@ -83,7 +84,6 @@ class Surfaces {
     int direction;  // 1 from the smaller vertex to the larger one, as the triangle is turned
   };
 
-  static std::size_t index(int i) noexcept { return std::size_t(i); }
   bool is_collapsed(int t) const noexcept {
     const auto& v = mesh_.triangle(t);
     return v[0] == v[1] || v[1] == v[2] || v[2] == v[0];

@@ -11,7 +11,7 @@ namespace feeler {
 
 /// More edges than this at a vertex are not looked at in a tick: the cone then counts as containing every
 /// direction.
-inline constexpr int max_cone_valence = 64;
+inline constexpr int maximum_cone_valence = 64;
 
 namespace detail {
 
@@ -54,7 +54,7 @@ bool neighbours_point_away(const TriangleMesh<Scalar>& mesh, int triangle, int c
   const std::array<int, 3>& corners = mesh.triangle(triangle);
   const int vertex = corners[std::size_t(corner)];
   const auto neighbours = mesh.topology().vertex_neighbours(vertex);
-  if (int(neighbours.size()) > max_cone_valence) return true;
+  if (int(neighbours.size()) > maximum_cone_valence) return true;
   for (const int neighbour : neighbours) {
     if (neighbour == corners[0] || neighbour == corners[1] || neighbour == corners[2]) continue;
     const Vector3<Scalar> along = mesh.vertex(neighbour) - mesh.vertex(vertex);
@@ -85,15 +85,15 @@ bool edge_cone_contains(const TriangleMesh<Scalar>& mesh, int triangle, int k, c
 /// cone of the vertex.
 ///
 /// True iff the direction points along none of the vertex's edges; always true with more than
-/// `max_cone_valence` of them.
+/// `maximum_cone_valence` of them.
 /// @param direction  unit vector, world axes, from the mesh to the tool
 /// @param tolerance  sine by which the direction may leave the cone
-/// @cost  noexcept, no allocation, at most `max_cone_valence` dot products and square roots
+/// @cost  noexcept, no allocation, at most `maximum_cone_valence` dot products and square roots
 template <RealScalar Scalar>
 bool vertex_cone_contains(const TriangleMesh<Scalar>& mesh, int vertex, const Vector3<Scalar>& direction, const Scalar& tolerance) noexcept {
   using std::sqrt;
   const auto neighbours = mesh.topology().vertex_neighbours(vertex);
-  if (int(neighbours.size()) > max_cone_valence) return true;
+  if (int(neighbours.size()) > maximum_cone_valence) return true;
   for (const int neighbour : neighbours) {
     const Vector3<Scalar> along = mesh.vertex(neighbour) - mesh.vertex(vertex);
     if (!(direction.dot(along) <= tolerance * sqrt(along.squaredNorm()))) return false;
@@ -105,7 +105,7 @@ bool vertex_cone_contains(const TriangleMesh<Scalar>& mesh, int vertex, const Ve
 /// them points along it.
 ///
 /// Where a direction leaves the normal cone of the vertex, the mesh is nearer there to what is off the vertex in that direction.
-/// @cost  noexcept, no allocation, at most twice `max_cone_valence` triangles
+/// @cost  noexcept, no allocation, at most twice `maximum_cone_valence` triangles
 template <RealScalar Scalar>
 int triangle_along(const TriangleMesh<Scalar>& mesh, int triangle, int corner, const Vector3<Scalar>& direction) noexcept {
   using std::sqrt;
@@ -123,7 +123,7 @@ int triangle_along(const TriangleMesh<Scalar>& mesh, int triangle, int corner, c
   };
   for (const int side : {0, 2}) {  // across the edge that leaves the vertex, and, if the surface ends there, across the one that comes to it
     int current = triangle;
-    for (int step = 0; step < max_cone_valence; ++step) {
+    for (int step = 0; step < maximum_cone_valence; ++step) {
       const std::array<int, 3>& corners = mesh.triangle(current);
       const int k = corners[0] == vertex ? 0 : corners[1] == vertex ? 1 : 2;
       current = mesh.topology().neighbour(current, (k + side) % 3);

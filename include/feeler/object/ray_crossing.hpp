@@ -42,7 +42,7 @@ inline int side_of_line(const Vector3<double>& u, const Vector3<double>& v, cons
 
 /// On which side of a plane through three points a point lies: 1 where they are seen counter-clockwise, 0 on
 /// the plane.
-/// @param triangle  a corner a column
+/// @param triangle  one corner in each column
 inline int side_of_plane(const Matrix3<double>& triangle, const Vector3<double>& p) noexcept {
   const Matrix3<double> from = triangle.colwise() - p;
   double volume = 0, size = 0;
@@ -88,7 +88,7 @@ inline int side_of_plane(const Matrix3<double>& triangle, const Vector3<double>&
 /// Decided exactly, and of the triangles around an edge or a corner that the ray meets as if it passed beside
 /// it: the crossings of a closed surface sum up to its winding number around the point. A point on the
 /// triangle is in front of it.
-/// @param triangle  a corner a column [m]
+/// @param triangle  one corner in each column [m]
 inline int ray_crossing(const Vector3<double>& point, const Matrix3<double>& triangle) noexcept {
   if (triangle.row(0).maxCoeff() < point.x()) return 0;
   const int facing = detail::side_of_line(triangle.col(0), triangle.col(1), point);

@@ -1,7 +1,6 @@
 // The unit normal of a triangle, or zero where rounding leaves none.
 #pragma once
 
-#include <algorithm>
 #include <cmath>
 #include <limits>
 

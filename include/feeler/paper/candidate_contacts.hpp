@@ -170,7 +170,7 @@ class CandidateContactsFollower {
     const bool is_home = is_whole && active_.empty() && scene.has_led_to(target_, best.pose, best.length);
     pose_ = is_home ? target_ : best.pose;
     tick.path.push_back(scene.tool_pose(pose_));
-    return is_whole && (is_home || best.length < Scalar(scene.settings().step_tolerance));
+    return is_whole && (is_home || best.length < scene.step_tolerance());
   }
 
   struct Nothing {

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "feeler/core/fixed_vector.hpp"
+#include "feeler/core/index.hpp"
 #include "feeler/paper/candidate_constraint.hpp"
 #include "feeler/paper/candidate_options.hpp"
 #include "feeler/paper/contact_regions.hpp"
@@ -97,8 +98,6 @@ class CombinationSearch {
   using Coordinates = StepCoordinates<Scalar, options.increments>;
   using Choice = std::array<int, std::size_t(options.maximum_regions)>;  // a candidate of each region
 
-  static std::size_t index(int i) noexcept { return std::size_t(i); }
-
   void try_combinations(const Scene& scene, int region_count, Tick<MeshScalar>& tick) noexcept {
     constexpr int most_counted = 1024;
     Choice choice{};
@@ -128,7 +127,7 @@ class CombinationSearch {
       if (!solve_or_relax(scene, pose)) return;
       if (!is_capped) note_active(active);
       pose = coordinates.pose_at(qp_solution_.step);
-      if (scene.length_of(Twist<Scalar>::from_vector(qp_solution_.step)) < Scalar(scene.settings().step_tolerance) / 50) break;
+      if (scene.length_of(Twist<Scalar>::from_vector(qp_solution_.step)) < scene.very_short()) break;
       if constexpr (options.is_certified()) {
         const Twist<Scalar> motion = motion_between(reach_.pose, pose);
         const Scalar length = scene.length_of(motion);

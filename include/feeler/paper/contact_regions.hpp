@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "feeler/core/fixed_vector.hpp"
+#include "feeler/core/index.hpp"
 #include "feeler/paper/first_contacts.hpp"
 #include "feeler/paper/triangle_ring.hpp"
 #include "feeler/proximity/separation.hpp"
@@ -108,8 +109,6 @@ class ContactRegions {
 
  private:
   using TriangleList = FixedVector<int, OverlappedTriangles::capacity>;
-
-  static std::size_t index(int i) noexcept { return std::size_t(i); }
 
   static auto ring(const Scene& scene, int triangle) noexcept { return TriangleRing<Scalar, MeshScalar>::around(scene.object(), triangle); }
   template <class Triangles>

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstdint>
 #include <span>
@@ -10,6 +9,7 @@
 #include "feeler/contact/contact_row.hpp"
 #include "feeler/contact/vertex_set.hpp"
 #include "feeler/core/fixed_vector.hpp"
+#include "feeler/core/index.hpp"
 #include "feeler/core/scalar.hpp"
 #include "feeler/object/triangle_mesh.hpp"
 #include "feeler/paper/candidate_constraint.hpp"
@@ -69,7 +69,6 @@ class LocalSearch {
  private:
   using Plane = typename Ring::Plane;
 
-  static std::size_t index(int i) noexcept { return std::size_t(i); }
   Vector tool_vertex(int i) const noexcept { return pose_ * tool_.vertex(i); }
   /// Meshes may be open, and then the tool may be behind them.
   bool is_behind(const FirstContact<Scalar>& contact) const noexcept {

@@ -3,10 +3,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstddef>
 #include <cstdint>
 
 #include "feeler/core/fixed_vector.hpp"
+#include "feeler/core/index.hpp"
 #include "feeler/core/scalar.hpp"
 #include "feeler/object/triangle_mesh.hpp"
 
@@ -109,7 +109,6 @@ class TriangleRing {
   }
 
  private:
-  static std::size_t index(int i) noexcept { return std::size_t(i); }
   static bool has_member(const Plane& plane, int i) noexcept { return (plane.members >> i & 1u) != 0; }
 
   Vector outward(int triangle) const noexcept {

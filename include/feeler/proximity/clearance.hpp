@@ -3,8 +3,6 @@
 
 #include <algorithm>
 
-#include "feeler/core/scalar.hpp"
-
 namespace feeler {
 
 /// The separations that a certificate insists on.

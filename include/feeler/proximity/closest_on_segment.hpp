@@ -2,7 +2,6 @@
 #pragma once
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 
 #include <Eigen/Geometry>
@@ -47,7 +46,7 @@ SegmentCrossing<Scalar> crossing_of_segments(const Vector3<Scalar>& first_start,
 }
 
 /// The point of a triangle nearest to a point.
-/// @param triangle  3×3, a corner a column [m]; may be degenerate
+/// @param triangle  3×3, one corner in each column [m]; may be degenerate
 /// @param normal    its unit normal, or zero where it is degenerate
 template <class Scalar>
 Vector3<Scalar> closest_on_triangle(const Vector3<Scalar>& point, const Matrix3<Scalar>& triangle, const Vector3<Scalar>& normal) noexcept {

@@ -42,7 +42,7 @@ struct Simplex {
 
 /// Weights of the point closest to the origin on the hull of up to three points; a weight of zero marks a point not needed.
 template <class Scalar>
-std::array<Scalar, 3> closest_on_segment(const Vector3<Scalar>& a, const Vector3<Scalar>& b) noexcept {
+std::array<Scalar, 3> weights_on_segment(const Vector3<Scalar>& a, const Vector3<Scalar>& b) noexcept {
   const Vector3<Scalar> ab = b - a;
   const Scalar along = -a.dot(ab);
   const Scalar length = ab.squaredNorm();
@@ -54,8 +54,8 @@ std::array<Scalar, 3> closest_on_segment(const Vector3<Scalar>& a, const Vector3
 
 /// The same for the edges of a triangle: all there is of one without area.
 template <class Scalar>
-std::array<Scalar, 3> closest_on_edges(const Vector3<Scalar>& a, const Vector3<Scalar>& b, const Vector3<Scalar>& c) noexcept {
-  const auto ab = closest_on_segment(a, b), bc = closest_on_segment(b, c), ca = closest_on_segment(c, a);
+std::array<Scalar, 3> weights_on_edges(const Vector3<Scalar>& a, const Vector3<Scalar>& b, const Vector3<Scalar>& c) noexcept {
+  const auto ab = weights_on_segment(a, b), bc = weights_on_segment(b, c), ca = weights_on_segment(c, a);
   const Scalar on_ab = (ab[0] * a + ab[1] * b).squaredNorm();
   const Scalar on_bc = (bc[0] * b + bc[1] * c).squaredNorm();
   const Scalar on_ca = (ca[0] * c + ca[1] * a).squaredNorm();
@@ -66,7 +66,7 @@ std::array<Scalar, 3> closest_on_edges(const Vector3<Scalar>& a, const Vector3<S
 
 /// The same for a triangle, by its Voronoi regions (C. Ericson, "Real-Time Collision Detection", section 5.1.5).
 template <class Scalar>
-FEELER_FLATTEN std::array<Scalar, 3> closest_on_triangle(const Vector3<Scalar>& a, const Vector3<Scalar>& b, const Vector3<Scalar>& c) noexcept {
+FEELER_FLATTEN std::array<Scalar, 3> weights_on_triangle(const Vector3<Scalar>& a, const Vector3<Scalar>& b, const Vector3<Scalar>& c) noexcept {
   const Vector3<Scalar> ab = b - a;
   const Vector3<Scalar> ac = c - a;
   const Scalar d1 = -ab.dot(a), d2 = -ac.dot(a);
@@ -91,7 +91,7 @@ FEELER_FLATTEN std::array<Scalar, 3> closest_on_triangle(const Vector3<Scalar>& 
     return {Scalar(0), Scalar(1) - t, t};
   }
   const Scalar sum = va + vb + vc;
-  if (!(sum > Scalar(0))) return closest_on_edges(a, b, c);
+  if (!(sum > Scalar(0))) return weights_on_edges(a, b, c);
   return {va / sum, vb / sum, vc / sum};
 }
 
@@ -107,8 +107,8 @@ FEELER_FLATTEN bool reduce_to_closest(Simplex<Scalar>& simplex) noexcept {
       simplex.weights[0] = Scalar(1);
       simplex.closest = p[0];
       return true;
-    case 2: simplex.keep({0, 1, 1}, closest_on_segment(p[0], p[1])); return true;
-    case 3: simplex.keep({0, 1, 2}, closest_on_triangle(p[0], p[1], p[2])); return true;
+    case 2: simplex.keep({0, 1, 1}, weights_on_segment(p[0], p[1])); return true;
+    case 3: simplex.keep({0, 1, 2}, weights_on_triangle(p[0], p[1], p[2])); return true;
     default: break;
   }
   constexpr std::array<std::array<int, 4>, 4> faces{{{0, 1, 3, 2}, {1, 2, 3, 0}, {0, 2, 3, 1}, {0, 1, 2, 3}}};
@@ -122,7 +122,7 @@ FEELER_FLATTEN bool reduce_to_closest(Simplex<Scalar>& simplex) noexcept {
     const Scalar origin = -normal.dot(a);
     const bool origin_is_beyond = inside > Scalar(0) ? origin <= Scalar(0) : inside < Scalar(0) ? origin >= Scalar(0) : true;
     if (!origin_is_beyond) continue;
-    const auto w = closest_on_triangle(a, b, c);
+    const auto w = weights_on_triangle(a, b, c);
     const Scalar distance = (w[0] * a + w[1] * b + w[2] * c).squaredNorm();
     if (distance < best) {
       best = distance;

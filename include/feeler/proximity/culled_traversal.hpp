@@ -17,6 +17,7 @@
 #include "feeler/proximity/traversal_order.hpp"
 #include "feeler/proximity/unpassed_triangles.hpp"
 #include "feeler/proximity/wall_planes.hpp"
+#include "feeler/proximity/work_meter.hpp"
 
 namespace feeler {
 
@@ -64,7 +65,7 @@ class CulledTraversal {
     planes_->age();
     planes_->with_tool().age();
     planes_->begin(moving, start_);
-    evaluations_ += planes_->leaves().begin(moving, clearance_.kept) / 4;
+    heights_.note(planes_->leaves().begin(moving, clearance_.kept) / 4);
     noted_leaf_ = -1;
     hiding_planes_.clear();
     if (keeps_off_) hiding_planes_ = known.hiding_planes(moving, start_, clearance_);
@@ -121,17 +122,17 @@ class CulledTraversal {
     return is_done;
   }
 
-  /// Whether a cached plane parts the tool from a triangle.
+  /// Whether a cached plane parts the tool from a triangle: where it does not turn with the tool, `last_parting_`.
   FEELER_FLATTEN bool is_parted(const Matrix3<Scalar>& corners, const Moving& moving) noexcept {
-    if (last_ < planes_->size() && is_behind(corners, last_)) return true;
+    if (last_parting_ < planes_->size() && is_behind(corners, last_parting_)) return true;
     const int turning = planes_->with_tool().parting(corners);
     if (turning >= 0) {
       if (planes_->with_tool().lend(turning)) add_plane(planes_->with_tool().normal_at_end(turning), moving);
       return true;
     }
     for (int i = 0; i < planes_->size(); ++i) {
-      if (i == last_ || !is_behind(corners, i)) continue;
-      last_ = i;
+      if (i == last_parting_ || !is_behind(corners, i)) continue;
+      last_parting_ = i;
       return true;
     }
     return false;
@@ -141,7 +142,7 @@ class CulledTraversal {
   bool is_parted_by_wall(const TriangleMesh<MeshScalar>& mesh, int triangle, const Moving& moving, int& work) noexcept {
     if (walls_ == nullptr) return false;
     const bool parts = walls_->parts_triangle(mesh, triangle, moving, start_, end_, clearance_);
-    count_evaluations(work);
+    heights_.add(walls_->take_evaluations(), work);
     return parts;
   }
 
@@ -160,7 +161,7 @@ class CulledTraversal {
     for (std::size_t i = 0; i < passed.size(); ++i) {
       if (passed[i] == 0 && walls[i] >= 0 && is_wall_parted(walls[i], mesh.walls().is_inside(node, i))) passed[i] = -1;
     }
-    count_evaluations(work);
+    heights_.add(walls_->take_evaluations(), work);
   }
   /// Marks those all of whose leaves are parted by planes of their own.
   template <class MeshScalar, class Passed>
@@ -208,7 +209,9 @@ class CulledTraversal {
       }
       const Matrix3<Scalar> corners = corners_of(mesh, triangles[i], moving);
       if (!is_parted(corners, moving)) continue;
-      if (last_ < planes_->size()) note(i, planes_->normal(last_), planes_->height(last_) - highest_corner(corners, planes_->normal(last_)));
+      // Where a plane that turns with the tool parts the triangle, this one may at the start: `note` looks how far.
+      const int plane = last_parting_;
+      if (plane < planes_->size()) note(i, planes_->normal(plane), planes_->height(plane) - highest_corner(corners, planes_->normal(plane)));
       else passed_lanes_ |= 1U << i;
     }
   }
@@ -223,12 +226,6 @@ class CulledTraversal {
     return true;
   }
 
-  void count_evaluations(int& work) noexcept {
-    constexpr int evaluations_per_work = 16;
-    evaluations_ += walls_->take_evaluations();
-    work += evaluations_ / evaluations_per_work;
-    evaluations_ %= evaluations_per_work;
-  }
   void count_hits() noexcept {
     coarse_.take_hits(hiding_planes_.size() + planes_->size(), [this](int i, int hits) {
       if (i >= hiding_planes_.size()) planes_->count_hits(i - hiding_planes_.size(), hits);
@@ -240,13 +237,13 @@ class CulledTraversal {
   Clearance<Scalar> clearance_;
   int piece_;
   bool keeps_off_ = false;
-  int evaluations_ = 0;  // of heights above remembered planes, since the work last grew for it
+  WorkMeter<16> heights_;  // above remembered planes
   std::optional<TraversalPlace<Order>> place_;
   Frame start_;
   Frame end_;
   std::int32_t noted_leaf_ = -1;  // the last whose planes were noted, and its triangles that were passed then
   unsigned passed_lanes_ = 0;
-  int last_ = 0;  // of the planes to part a triangle: its neighbours come next
+  int last_parting_ = 0;  // the world's plane that last parted a triangle: its neighbours come next
   typename KnownTriangles<Scalar>::Planes hiding_planes_;
   CoarsePlanes<Scalar, PlaneCache<Scalar>::capacity + KnownTriangles<Scalar>::plane_capacity> coarse_;
 };

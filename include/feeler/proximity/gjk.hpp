@@ -224,7 +224,7 @@ ClosestPoints<typename Tool::Scalar> closest_to_large(const Tool& tool, const Ma
 /// Minimises |x − y| over x in the tool and y in the triangle (E. Gilbert, D. Johnson, S. Keerthi, IEEE J. Robotics and Automation 4,
 /// 1988). The distance returned is min n·x − max n·y for the unit normal n returned, so it is a lower bound whatever rounding did. Where a triangle
 /// is so large that rounding keeps the bounds apart, the part of it that is near the tool decides.
-/// @param triangle  3×3, a corner a column, in the tool frame [m]; may be degenerate
+/// @param triangle  3×3, one corner in each column, in the tool frame [m]; may be degenerate
 /// @param warm      features of an earlier query, or empty
 /// @param touching_distance  below it the shapes count as touching [m]
 /// @cost  noexcept, no allocation, at most 32 support calls, mostly 2 to 5; of a large triangle twice that

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 
+#include "feeler/core/index.hpp"
 #include "feeler/core/scalar.hpp"
 #include "feeler/proximity/clearance.hpp"
 #include "feeler/proximity/motion.hpp"
@@ -83,8 +84,6 @@ class BoxOnMotion {
   Scalar upper(int axis) const noexcept { return -sides_[index(axis)][1].least; }
 
  private:
-  static std::size_t index(int i) noexcept { return std::size_t(i); }
-
   template <class Visit>
   void for_each_side(const Visit& visit) noexcept {
     for (int axis = 0; axis < 3; ++axis) {

@@ -13,6 +13,7 @@
 #include "feeler/proximity/highest_corner.hpp"
 #include "feeler/proximity/motion.hpp"
 #include "feeler/proximity/passage.hpp"
+#include "feeler/proximity/work_meter.hpp"
 
 namespace feeler {
 
@@ -30,8 +31,8 @@ struct HidingPlane {
   Scalar height;  ///< of that triangle along it, relative to the motion's origin [m]
 };
 
-/// The known triangles of one sweep. What lies in or behind the plane that parts one of them is no nearer to the tool than that one, as seen along the
-/// normal: of a wall that is cut into many triangles a few so tell all.
+/// The known triangles of one sweep. What lies in or behind the plane that parts one of them is no nearer to the tool than that one, as seen along
+/// the normal: of a wall that is cut into many triangles a few so tell all.
 template <class ScalarType>
 class KnownTriangles {
  public:
@@ -75,9 +76,7 @@ class KnownTriangles {
   template <class Moving>
   FEELER_FLATTEN bool hide(const Matrix3<Scalar>& corners, const Moving& moving, const MotionFrame<Scalar>& start, const MotionFrame<Scalar>& end,
                            const Clearance<Scalar>& clearance, int& work) noexcept {
-    constexpr int triangles_per_work = 4;
-    asked_ = (asked_ + 1) % triangles_per_work;
-    if (asked_ == 0) ++work;
+    triangles_.add(1, work);
     for (const KnownTriangle<Scalar>& known : list_) {
       PlaneOnMotion<Scalar> plane{known.state.normal};
       const Scalar height = highest_corner(corners, plane.normal);
@@ -94,7 +93,7 @@ class KnownTriangles {
   static Scalar flat(const Clearance<Scalar>& clearance) noexcept { return clearance.kept / 1000; }
 
   List list_;
-  int asked_ = 0;  // triangles, since the work last grew for it
+  WorkMeter<4> triangles_;  // that were asked for
 };
 
 }  // namespace feeler

@@ -1,8 +1,6 @@
 // The part of a triangle that is near a tool: of a large one the rest costs a query its digits.
 #pragma once
 
-#include <array>
-
 #include "feeler/core/fixed_vector.hpp"
 #include "feeler/core/scalar.hpp"
 #include "feeler/tool/convex_tool.hpp"
@@ -64,7 +62,7 @@ struct BoxSide {
 ///
 /// The closest points of a tool and a triangle are in that box where they are no farther apart than the distance. Corners that cutting makes lie on
 /// edges and in the face to rounding of the box, not of the triangle.
-/// @param triangle  a corner a column, in the tool frame [m]
+/// @param triangle  one corner in each column, in the tool frame [m]
 /// Source: I. Sutherland, G. Hodgman, "Reentrant polygon clipping", Communications of the ACM 17 (1974).
 template <ConvexTool Tool>
 CutTriangle<typename Tool::Scalar> near_part(const Tool& tool, const Matrix3<typename Tool::Scalar>& triangle,

@@ -19,9 +19,9 @@ namespace feeler {
 /// The front of a traversal, kept from motion to motion: of each leaf that it came to, a plane for each triangle and how far the tool was above that.
 ///
 /// A tool in free play of a fit has triangles on all sides, and no few planes part it from all of them. But what was some way off is so yet: a
-/// translation d lowers the tool along a normal n by −n·d, and a turn by no more than its angle times the radius. So one product a triangle tells, and
-/// where it does of all leaves under a node, that need not be visited (J. Klosowski et al., "Efficient collision detection using bounding volume
-/// hierarchies of k-DOPs", 1998, on fronts). In single precision, rounded so that it parts less, never more.
+/// translation d lowers the tool along a normal n by −n·d, and a turn by no more than its angle times the radius. So one product for each triangle
+/// tells, and where it does of all leaves under a node, that need not be visited (J. Klosowski et al., "Efficient collision detection using bounding
+/// volume hierarchies of k-DOPs", 1998, on fronts). In single precision, rounded so that it parts less, never more.
 ///
 /// It is kept where it pays: where many triangles are near, and most of its leaves stay parted.
 template <class ScalarType>
@@ -83,7 +83,7 @@ class PartedLeaves {
     return int(count);
   }
 
-  /// Whether all leaves from one to before another are.
+  /// Whether all triangles of the leaves [first, last) are parted; these leaves have been asked for.
   bool are_parted(std::int32_t first, std::int32_t last) noexcept {
     const auto count = std::size_t(last - first);
     if (count > count_) return false;
@@ -94,7 +94,7 @@ class PartedLeaves {
     told_ += width * count;
     return true;
   }
-  /// Whether one triangle of a leaf is.
+  /// Whether one triangle of a leaf is parted; the leaf has been asked for.
   bool is_parted(std::int32_t leaf, std::size_t lane) noexcept {
     ++asked_;
     if (count_ == 0) return false;
@@ -122,7 +122,7 @@ class PartedLeaves {
   static constexpr unsigned all_lanes = (1U << width) - 1U;
   static constexpr std::size_t place_count = 1024;
   static constexpr int most_age = 3;  // motions since it was asked for
-  static constexpr int price = 6;  // of a note, in triangles that need not be looked at
+  static constexpr int note_cost = 6;  // in triangles that need not be looked at
   static constexpr int trial = 3;  // motions after which it must have paid
   static constexpr int pause = 128;  // motions without a front where it has not
 
@@ -145,7 +145,7 @@ class PartedLeaves {
   /// Whether the front is kept for the motion to come: where many triangles are near, and it has told of more than it had to be told.
   bool decide() noexcept {
     const std::size_t met = std::exchange(asked_, 0) + width * count_;
-    gain_ = gain_ / 2 + int(std::exchange(told_, 0)) - price * int(std::exchange(noted_, 0));
+    gain_ = gain_ / 2 + int(std::exchange(told_, 0)) - note_cost * int(std::exchange(noted_, 0));
     if (is_kept_ && ++motions_ >= trial && gain_ < 0 && worth_keeping_ > 0) paused_ = pause;
     const bool was_kept = std::exchange(is_kept_, !leaves_.empty() && paused_ == 0 && met >= worth_keeping_);
     if (paused_ > 0) --paused_;

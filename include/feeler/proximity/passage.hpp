@@ -45,20 +45,21 @@ struct HeldPlane {
   Scalar slack;
 };
 
-/// Part of a motion over which a plane certainly holds; 1 for all of it.
+/// How much of a motion a plane certainly holds for; 1 for all of it.
 template <class Scalar>
-struct HeldPart {
-  Scalar part;
+struct HeldFraction {
+  Scalar fraction;
   bool turns;  ///< with the tool
 };
 
-/// Part of [from, to] over which one plane certainly holds, fixed to the world or to the tool, whichever is more.
+/// How much of [from, to] one plane certainly holds for, fixed to the world or to the tool, whichever is more.
 /// `plane` is given at the frame `at`, which is one end; `required` is subtracted from its slack.
 template <ConvexTool Tool>
-FEELER_FLATTEN HeldPart<typename Tool::Scalar> held_part(const MovingTool<Tool>& moving, const Matrix3<typename Tool::Scalar>& corners,
-                                                         const HeldPlane<typename Tool::Scalar>& plane, const MotionFrame<typename Tool::Scalar>& at,
-                                                         const MotionFrame<typename Tool::Scalar>& other, typename Tool::Scalar required,
-                                                         bool at_is_start) noexcept {
+FEELER_FLATTEN HeldFraction<typename Tool::Scalar> held_fraction(const MovingTool<Tool>& moving, const Matrix3<typename Tool::Scalar>& corners,
+                                                                 const HeldPlane<typename Tool::Scalar>& plane,
+                                                                 const MotionFrame<typename Tool::Scalar>& at,
+                                                                 const MotionFrame<typename Tool::Scalar>& other, typename Tool::Scalar required,
+                                                                 bool at_is_start) noexcept {
   using Scalar = typename Tool::Scalar;
   using std::sqrt;
   const Scalar duration = other.time - at.time;
@@ -70,13 +71,13 @@ FEELER_FLATTEN HeldPart<typename Tool::Scalar> held_part(const MovingTool<Tool>&
   const Scalar reach = sqrt((std::max)((corners.colwise() - at.shift).colwise().squaredNorm().maxCoeff(),
                                        (corners.colwise() - other.shift).colwise().squaredNorm().maxCoeff()));
   const Scalar sagitta_tool = moving.sagitta_of_object(plane.normal, duration, reach);
-  const Scalar part_tool = at_is_start ? first_root(here, there_tool, sagitta_tool) : first_root(there_tool, here, sagitta_tool);
-  if (!(part_tool < Scalar(1))) return {Scalar(1), true};
+  const Scalar fraction_with_tool = at_is_start ? first_root(here, there_tool, sagitta_tool) : first_root(there_tool, here, sagitta_tool);
+  if (!(fraction_with_tool < Scalar(1))) return {Scalar(1), true};
   // Fixed to the world.
   const Scalar there = moving.lowest(plane.normal, other) - highest_corner(corners, plane.normal) - required;
   const Scalar sagitta = moving.sagitta(plane.normal, duration);
-  const Scalar part_world = at_is_start ? first_root(here, there, sagitta) : first_root(there, here, sagitta);
-  return {(std::max)(part_tool, part_world), part_world < part_tool};
+  const Scalar fraction_in_world = at_is_start ? first_root(here, there, sagitta) : first_root(there, here, sagitta);
+  return {(std::max)(fraction_with_tool, fraction_in_world), fraction_in_world < fraction_with_tool};
 }
 
 /// Whether a plane that turns from one normal to another certainly holds over [start, end].
@@ -132,12 +133,12 @@ class TrianglePassage {
     if (is_known_) {
       touches_ = plane_.slack < 2 * clearance_.touching;
       required_ = clearance_.required(plane_.slack);
-      part_from_start_ = part_held(start_, end_);
-      if (!(part_from_start_ < Scalar(1))) return free_by(plane_.normal);
+      fraction_from_start_ = fraction_held(start_, end_);
+      if (!(fraction_from_start_ < Scalar(1))) return free_by(plane_.normal);
       if (turns_to_guess()) return free_by(triangle_.last_normal);
     }
     last_ = query(end_, touches_);
-    if (const auto held = held_back_from_end(); !(held.part < Scalar(1))) return free_by_last(held.turns);
+    if (const auto held = held_back_from_end(); !(held.fraction < Scalar(1))) return free_by_last(held.turns);
     if (!is_known_) measure_start();
     if (turns_to(last_, start_, end_)) return free_by_last();
     return advance(enough, limit);
@@ -163,8 +164,8 @@ class TrianglePassage {
   }
 
   /// Of the way from one time to another, how much the plane at hand certainly holds for.
-  Scalar part_held(const Frame& from, const Frame& to) const noexcept {
-    return held_part(moving_, triangle_.corners, plane_, from, to, required_, true).part;
+  Scalar fraction_held(const Frame& from, const Frame& to) const noexcept {
+    return held_fraction(moving_, triangle_.corners, plane_, from, to, required_, true).fraction;
   }
   /// Whether a plane that turns from that at hand to another certainly holds.
   bool turns_to(const Plane& other, const Frame& from, const Frame& to) const noexcept {
@@ -174,12 +175,12 @@ class TrianglePassage {
     return triangle_.last_normal.squaredNorm() > Scalar(0) && turns_to({triangle_.last_normal, slack_at(triangle_.last_normal, end_)}, start_, end_);
   }
 
-  /// The part of the motion, seen from the end, that the plane measured there certainly holds for.
-  HeldPart<Scalar> held_back_from_end() const noexcept {
+  /// How much of the motion, seen from the end, the plane measured there certainly holds for.
+  HeldFraction<Scalar> held_back_from_end() const noexcept {
     if (!(last_.slack > -std::numeric_limits<Scalar>::infinity())) return {Scalar(0), false};
     const Scalar known = (std::max)(slack_at(last_.normal, start_), is_known_ ? plane_.slack : Scalar(0));
     const Scalar required = clearance_.required((std::max)(known, Scalar(0)));
-    return held_part(moving_, triangle_.corners, last_, end_, start_, required, false);
+    return held_fraction(moving_, triangle_.corners, last_, end_, start_, required, false);
   }
   /// Finds the plane at the start where none is known, and that at the end once more where the shapes touch from there.
   void measure_start() noexcept {
@@ -200,7 +201,7 @@ class TrianglePassage {
       is_cut = work_ >= limit;
       if (is_cut) break;
       const Scalar whole = end_.time - frame.time;
-      const Scalar certain = certain_time(frame, whole * (is_known_ && step == 0 ? part_from_start_ : part_held(frame, end_)));
+      const Scalar certain = certain_time(frame, whole * (is_known_ && step == 0 ? fraction_from_start_ : fraction_held(frame, end_)));
       if (!(certain < whole)) return free_by_last();
       const Scalar half = (beyond_ - frame.time) / 2;
       if (rolls_ && half > certain && half * moving_.length() >= resolution_) {
@@ -219,7 +220,7 @@ class TrianglePassage {
     if (!(time < whole && 3 * time < whole)) return time;
     // A sagitta falls with the square of the duration: over a shorter part the same plane holds for longer.
     const Scalar shorter = (std::max)(3 * time, whole / 8);
-    return (std::max)(time, shorter * part_held(frame, moving_.frame_at(frame.time + shorter)));
+    return (std::max)(time, shorter * fraction_held(frame, moving_.frame_at(frame.time + shorter)));
   }
   /// Moves on by half of what is left, if a plane certainly turns so far; if not, less is left.
   bool roll(Frame& frame, Scalar half) noexcept {
@@ -247,8 +248,10 @@ class TrianglePassage {
   /// Whether a triangle that is in the way at the end is known not to block before it need be.
   bool is_late(Scalar time, Scalar enough) const noexcept { return last_.slack < required_ && 4 * (enough - time) * moving_.length() <= resolution_; }
 
-  Result free_by(const Vector3<Scalar>& normal) const noexcept { return {end_.time, false, normal, warm_}; }
-  Result free_by_last(bool turns = false) const noexcept { return {end_.time, false, last_.normal, warm_, turns, false, last_.slack}; }
+  Result free_by(const Vector3<Scalar>& normal) const noexcept { return {.time = end_.time, .normal = normal, .features = warm_}; }
+  Result free_by_last(bool turns = false) const noexcept {
+    return {.time = end_.time, .normal = last_.normal, .features = warm_, .turns = turns, .slack = last_.slack};
+  }
 
   const MovingTool<Tool>& moving_;
   const PassedTriangle<Scalar>& triangle_;
@@ -261,7 +264,7 @@ class TrianglePassage {
   bool rolls_ = false;  // edge over edge, so that planes turn
   Plane plane_, last_;  // at hand, which separates at the time reached; at the end
   Scalar required_ = Scalar(0);  // of the slack at the start [m]
-  Scalar part_from_start_ = Scalar(0);  // that a known plane holds for
+  Scalar fraction_from_start_ = Scalar(0);  // that a known plane holds for
   Scalar resolution_ = Scalar(0);  // [m]
   Scalar beyond_ = Scalar(0);  // the time from which no turning plane is known to hold
 };

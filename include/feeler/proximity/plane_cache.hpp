@@ -1,9 +1,9 @@
 // A few planes that kept parting the tool from its surroundings, tried before anything is measured.
 #pragma once
 
-#include <algorithm>
 #include <array>
 
+#include "feeler/core/index.hpp"
 #include "feeler/core/scalar.hpp"
 #include "feeler/proximity/age_planes.hpp"
 #include "feeler/proximity/clearance.hpp"
@@ -75,8 +75,8 @@ class PlaneCache {
   /// Finds the heights at the start of a motion; they are relative to where the tool is, so known where it is turned as at the end of the last one.
   template <class Moving>
   void begin(const Moving& moving, const MotionFrame<Scalar>& start) noexcept {
-    const bool goes_on = knows_heights_ && start.rotation == axes_at_end_;
-    const auto begin = [&](auto& planes) { goes_on ? planes.go_on(shift_) : planes.begin(moving, start); };
+    const bool keeps_axes = knows_heights_ && start.rotation == axes_at_end_;
+    const auto begin = [&](auto& planes) { keeps_axes ? planes.go_on(shift_) : planes.begin(moving, start); };
     for (int i = 0; i < size_; ++i) begin(planes_[index(i)]);
     begin(box_);
   }
@@ -95,8 +95,6 @@ class PlaneCache {
   void age() noexcept { detail::age_planes(planes_, size_); }
 
  private:
-  static std::size_t index(int i) noexcept { return std::size_t(i); }
-
   struct Plane : PlaneOnMotion<Scalar> {
     Scalar limit;
     int hits = 0;

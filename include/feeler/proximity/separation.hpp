@@ -54,7 +54,7 @@ ClosestPoints<typename Tool::Scalar> separation_of_touching(const Tool& tool, co
 ///
 /// Closest points (GJK) where the shapes are apart, separating axes where they touch or overlap. The distance is proved by the normal
 /// returned with it.
-/// @param triangle  3×3, a corner a column, in the tool frame [m]; may be degenerate
+/// @param triangle  3×3, one corner in each column, in the tool frame [m]; may be degenerate
 template <ConvexTool Tool>
 ClosestPoints<typename Tool::Scalar> separation(const Tool& tool, const Matrix3<typename Tool::Scalar>& triangle, const WitnessFeatures& warm,
                                                 typename Tool::Scalar touching) noexcept {

@@ -32,7 +32,6 @@ template <ConvexTool Tool, class Order = NearestFirst>
 class Sweep {
  public:
   using Scalar = typename Tool::Scalar;
-  using Vector = Vector3<Scalar>;
   using List = typename KnownTriangles<Scalar>::List;
 
   /// @param walls  remembered planes of the object's walls, if any
@@ -126,15 +125,15 @@ class Sweep {
   }
 
  private:
-  /// @param is_again  the first triangle to be examined was so before, with less work: what comes of it now is made use of
+  /// @param is_resumed  as `examine` has it, of the first triangle to be examined
   template <class MeshScalar>
-  SweepResult<Scalar> run(const TriangleMesh<MeshScalar>& mesh, const MovingTool<Tool>& moving, int& work, int limit, bool is_again) noexcept {
-    if (!examine_known(mesh, moving, work, limit, is_again)) return exhausted();
+  SweepResult<Scalar> run(const TriangleMesh<MeshScalar>& mesh, const MovingTool<Tool>& moving, int& work, int limit, bool is_resumed) noexcept {
+    if (!examine_known(mesh, moving, work, limit, is_resumed)) return exhausted();
     if (result_.is_over()) return result_;
     const auto is_known = known_.by_number();
     const auto measure = [&](int triangle, const Matrix3<Scalar>& corners) {
-      const PassedTriangle<Scalar> state{corners, Vector::Zero(), traversal_.features().recall_or_guess(triangle), false};
-      return examine(triangle, state, moving, work, limit, std::exchange(is_again, false));
+      const PassedTriangle<Scalar> state{.corners = corners, .features = traversal_.features().recall_or_guess(triangle)};
+      return examine(triangle, state, moving, work, limit, std::exchange(is_resumed, false));
     };
     WallPlanes<Scalar>* const walls = traversal_.walls();
     const auto parted_until = [&](int wall) {
@@ -144,7 +143,7 @@ class Sweep {
       Scalar parted = parted_until(wall);
       if (parted >= traversal_.end().time) return true;
       if (parted < Scalar(0)) return false;
-      if (work < limit && walls->is_asked_first(mesh, wall, moving, traversal_.start()) &&
+      if (work < limit && walls->note_question(mesh, wall, moving, traversal_.start()) &&
           is_met_below(mesh, wall, parted, moving, is_known, measure)) {
         walls->meet(wall);
         parted = parted_until(wall);
@@ -167,11 +166,11 @@ class Sweep {
 
   /// Measures the known triangles, until they block the motion where it starts; false where the work ran out.
   template <class MeshScalar>
-  bool examine_known(const TriangleMesh<MeshScalar>& mesh, const MovingTool<Tool>& moving, int& work, int limit, bool& is_again) noexcept {
+  bool examine_known(const TriangleMesh<MeshScalar>& mesh, const MovingTool<Tool>& moving, int& work, int limit, bool& is_resumed) noexcept {
     for (; next_known_ < known_.list().size() && !result_.is_over(); ++next_known_) {
       const KnownTriangle<Scalar>& pair = known_.list()[next_known_];
       if (traversal_.is_parted_by_wall(mesh, pair.triangle, moving, work) || traversal_.is_parted(pair.state.corners, moving)) continue;
-      if (!examine(pair.triangle, pair.state, moving, work, limit, std::exchange(is_again, false))) return false;
+      if (!examine(pair.triangle, pair.state, moving, work, limit, std::exchange(is_resumed, false))) return false;
     }
     return true;
   }
@@ -193,9 +192,9 @@ class Sweep {
   }
 
   /// Measures a triangle; false where the work ran out before it was known how far the motion is free, and nothing came of it.
-  /// @param must_do  then too what is known is made use of
+  /// @param is_resumed  it was examined before, with less work: what comes of it now is made use of
   FEELER_FLATTEN bool examine(int triangle, const PassedTriangle<Scalar>& state, const MovingTool<Tool>& moving, int& work, int limit,
-                              bool must_do) noexcept {
+                              bool is_resumed) noexcept {
     if (work >= limit) return false;
     if (!state.is_exact && is_hidden(state.corners, moving, work)) return true;
     const Clearance<Scalar>& clearance = traversal_.clearance();
@@ -210,7 +209,7 @@ class Sweep {
     }
     // Beside a wall that the tool slides along there may be a way that leads nowhere near it in any other direction.
     if (state.is_exact && is_hidden(state.corners, moving, work)) return true;
-    if (passage.is_cut && !must_do) return false;
+    if (passage.is_cut && !is_resumed) return false;
     result_.add({triangle, passage.time, 0, passage.features});
     first_blocked_ = (std::min)(first_blocked_, passage.time);
     result_.time = (std::min)(result_.time, passage.time);

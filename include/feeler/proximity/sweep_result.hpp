@@ -58,8 +58,8 @@ struct SweepResult {
   }
 };
 
-/// How far a motion that is blocked should be looked at further: past its first blocker, to know the ones just behind it, and those that are as early but
-/// for how exactly times are known; where there is no room for more blockers, to the last of them.
+/// The time up to which a blocked motion is still looked at: past its first blocker, as the ones just behind it are wanted too, and times are known
+/// to a resolution only. Where there is no room for more blockers it is that of the last of them.
 template <ConvexTool Tool>
 typename Tool::Scalar worth_certifying(const SweepResult<typename Tool::Scalar>& result, const Clearance<typename Tool::Scalar>& clearance,
                                        const MovingTool<Tool>& moving) noexcept {

@@ -1,10 +1,10 @@
 // Planes fixed to the tool that kept parting it from triangles, tried before such a triangle is measured.
 #pragma once
 
-#include <algorithm>
 #include <array>
 #include <utility>
 
+#include "feeler/core/index.hpp"
 #include "feeler/core/scalar.hpp"
 #include "feeler/proximity/age_planes.hpp"
 #include "feeler/proximity/highest_corner.hpp"
@@ -16,9 +16,9 @@ namespace feeler {
 /// A few planes that turn with the tool, its faces above all: just below them lies what is near a contact, and a plane fixed to the world does not
 /// follow a turning face so closely.
 ///
-/// In the axes of the tool a plane stands and a point y of the object moves along an arc, Z(t) = R(t)ᵀ(y − c(t)). The tool reaches only points
-/// that are within its radius ρ of its reference point c at some time, so |Z| ≤ ρ + |dp| all the while, which bounds how far the height of such a
-/// point strays from its chord (`MovingTool::sagitta_of_object`). What is below the plane by that much at both ends stays below it. How high the tool is
+/// In the axes of the tool a plane stands and a point y of the object moves along an arc, Z(t) = R(t)ᵀ(y − c(t)). The tool reaches only points that
+/// are within its radius ρ of its reference point c at some time, so |Z| ≤ ρ + |dp| all the while. That bounds how far the height of such a point
+/// strays from its chord (`MovingTool::sagitta_of_object`): what is below the plane by as much at both ends stays below it. How high the tool is
 /// above such a plane never changes: they belong to one tool.
 template <class ScalarType>
 class ToolPlanes {
@@ -70,8 +70,6 @@ class ToolPlanes {
   }
 
  private:
-  static std::size_t index(int i) noexcept { return std::size_t(i); }
-
   /// Where a plane is at one end of the motion; axes of the world, relative to the motion's origin.
   struct HalfSpace {
     Vector3<Scalar> normal;

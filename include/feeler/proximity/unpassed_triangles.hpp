@@ -7,11 +7,9 @@
 #include <span>
 
 #include "feeler/object/bvh.hpp"
+#include "feeler/proximity/work_meter.hpp"
 
 namespace feeler {
-
-/// Nodes and leaves of a hierarchy that count as much work as one distance query.
-inline constexpr int nodes_per_work = 16;
 
 namespace detail {
 
@@ -40,15 +38,13 @@ struct TraversalPlace {
   std::array<std::int32_t, std::size_t(Order::leaves_at_once* BvhLeaf::width + 1)>
       unpassed;  // places in leaves; one more is written, and not counted
   std::size_t unpassed_count = 0, next = 0;  // of them, and the first that was not visited
-  int uncounted = 0;                         // nodes and leaves since the work last grew
+  WorkMeter<16> nodes;  // and leaves
 
   /// The nodes or leaves that are next in order.
   /// @param work  grows by the work done
   std::span<const std::int32_t> take(int& work) noexcept {
     const std::span<const std::int32_t> taken = waiting.take();
-    uncounted += int(taken.size());
-    work += uncounted / nodes_per_work;
-    uncounted %= nodes_per_work;
+    nodes.add(int(taken.size()), work);
     return taken;
   }
 };

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <algorithm>
-#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
@@ -30,13 +29,13 @@ class WallPlanes {
   using Scalar = ScalarType;
 
   /// @param has_walls  whether the object has any; else no room is taken
-  explicit WallPlanes(bool has_walls = true) : planes_(has_walls ? plane_capacity : 0), covers_(has_walls ? cover_capacity : 0) {}
+  explicit WallPlanes(bool has_walls = true) : planes_(has_walls ? plane_capacity : 0), remembered_(has_walls ? remembered_capacity : 0) {}
 
   void clear() noexcept {
     std::fill(planes_.begin(), planes_.end(), Plane());
-    std::fill(covers_.begin(), covers_.end(), Cover());
+    std::fill(remembered_.begin(), remembered_.end(), RememberedPlane());
     motion_ = end_ = last_end_ = 0;
-    goes_on_ = false;
+    keeps_axes_ = false;
     axes_at_end_.setZero();
   }
 
@@ -47,7 +46,7 @@ class WallPlanes {
     piece_ = piece;
     may_be_near_ = may_be_near;
     to_mesh_ = moving.origin() - mesh.bvh().origin().template cast<Scalar>();
-    goes_on_ = piece == last_piece_ && start.rotation == axes_at_end_;
+    keeps_axes_ = piece == last_piece_ && start.rotation == axes_at_end_;
     last_piece_ = piece;
     last_shift_ = shift_;
     last_end_ = end_;
@@ -81,8 +80,8 @@ class WallPlanes {
     if (parts(plane, plane.height, clearance)) return end.time;
     const Scalar height = plane.height - plane.offset, gap = plane.heights.start - height, required = clearance.required(gap);
     if (gap < -2 * clearance.allowance) return Scalar(-1);
-    const Scalar part = first_root(gap - required, plane.heights.last - height - required, plane.sagitta);
-    return (std::min)(part, Scalar(1) - std::numeric_limits<Scalar>::epsilon()) * end.time;
+    const Scalar fraction = first_root(gap - required, plane.heights.last - height - required, plane.sagitta);
+    return (std::min)(fraction, Scalar(1) - std::numeric_limits<Scalar>::epsilon()) * end.time;
   }
   /// The triangle of a wall under the tool's lowest vertex at a time of the motion, or -1 if that is beside the wall.
   template <class MeshScalar, class Moving>
@@ -92,9 +91,9 @@ class WallPlanes {
     const Vector3<Scalar> lowest = moving.tool().vertex(moving.tool().support(direction));
     return triangle_of_wall_under<MeshScalar, Scalar>(mesh, wall, moving.to_world(lowest, frame) + moving.origin());
   }
-  /// Whether this is the first time that it is asked of a wall and a motion.
+  /// Notes that a wall is asked for in a motion; false where it was before.
   template <class MeshScalar, class Moving>
-  bool is_asked_first(const TriangleMesh<MeshScalar>& mesh, int wall, const Moving& moving, const MotionFrame<Scalar>& start) noexcept {
+  bool note_question(const TriangleMesh<MeshScalar>& mesh, int wall, const Moving& moving, const MotionFrame<Scalar>& start) noexcept {
     return std::exchange(plane_of(mesh, wall, moving, start).asked, motion_) != motion_;
   }
   /// What is below the tool's lowest vertex blocks the motion: no other triangle of that wall does so before its plane gives out.
@@ -112,23 +111,23 @@ class WallPlanes {
                       const MotionFrame<Scalar>& end, const Clearance<Scalar>& clearance) noexcept {
     const int own = mesh.walls().of_triangle(triangle);
     if (own < 0) return false;
-    Cover& cover = covers_[place_of(triangle)];
-    if (cover.triangle == triangle && cover.piece == piece_) {
-      const Plane& plane = refreshed(plane_of(mesh, cover.wall, moving, start), moving, start, end, clearance);
-      if (plane.is_front == cover.is_front && parts(plane, cover.height, clearance)) return part(plane, cover.height);
+    RememberedPlane& remembered = remembered_[place_of(triangle)];
+    if (remembered.triangle == triangle && remembered.piece == piece_) {
+      const Plane& plane = refreshed(plane_of(mesh, remembered.wall, moving, start), moving, start, end, clearance);
+      if (plane.is_front == remembered.is_front && parts(plane, remembered.height, clearance)) return note_parting(plane, remembered.height);
     }
     const auto parted_by = [&](int wall) {
       const Plane& plane = refreshed(plane_of(mesh, wall, moving, start), moving, start, end, clearance);
       const Scalar height = height_of(mesh, triangle, plane.heights.normal);
       if (!parts(plane, height, clearance)) return false;
-      cover = {triangle, std::int32_t(piece_), std::int32_t(wall), plane.is_front, height};
-      return part(plane, height);
+      remembered = {triangle, std::int32_t(piece_), std::int32_t(wall), plane.is_front, height};
+      return note_parting(plane, height);
     };
     if (parted_by(own)) return true;
     for (int k = 0; k < 3; ++k) {
       const int neighbour = mesh.topology().neighbour(triangle, k);
       if (neighbour < 0) continue;
-      const Cover& others = covers_[place_of(neighbour)];
+      const RememberedPlane& others = remembered_[place_of(neighbour)];
       const int wall = others.triangle == neighbour && others.piece == piece_ ? others.wall : mesh.walls().of_triangle(neighbour);
       if (wall >= 0 && wall != own && parted_by(wall)) return true;
     }
@@ -143,13 +142,13 @@ class WallPlanes {
   int take_evaluations() noexcept { return std::exchange(evaluations_, 0); }
 
  private:
-  static constexpr std::size_t plane_capacity = 512, cover_capacity = 1024;
+  static constexpr std::size_t plane_capacity = 512, remembered_capacity = 1024;
 
   struct Plane {
     std::int32_t wall = 0;
     std::int32_t piece = -1;
     std::uint32_t motion = 0, end = 0;  // that its heights are of
-    std::uint32_t asked = 0;            // motion in which `is_asked_first` was called
+    std::uint32_t asked = 0;            // motion in which `note_question` was called
     std::uint32_t met = 0;              // motion that is blocked below the lowest vertex
     std::uint32_t known = 0;            // motion before which a triangle of it was in the working set
     int vertex = 0;                     // of the tool, that was lowest
@@ -161,7 +160,7 @@ class WallPlanes {
     Scalar offset = Scalar(0);  // of the motion's origin in them [m]
   };
   /// The plane that parted a triangle.
-  struct Cover {
+  struct RememberedPlane {
     std::int32_t triangle = -1;
     std::int32_t piece = -1;
     std::int32_t wall = 0;
@@ -170,7 +169,7 @@ class WallPlanes {
   };
 
   std::size_t hash(int i) const noexcept { return std::size_t((std::uint32_t(i) * 2654435769U + std::uint32_t(piece_) * 40503U) >> 16U); }
-  std::size_t place_of(int triangle) const noexcept { return hash(triangle) % cover_capacity; }
+  std::size_t place_of(int triangle) const noexcept { return hash(triangle) % remembered_capacity; }
 
   template <class MeshScalar>
   static Scalar height_of(const TriangleMesh<MeshScalar>& mesh, int triangle, const Vector3<Scalar>& normal) noexcept {
@@ -204,7 +203,7 @@ class WallPlanes {
                    const Clearance<Scalar>& clearance) noexcept {
     PlaneOnMotion<Scalar>& heights = plane.heights;
     if (plane.motion != motion_) {
-      if (goes_on_ && plane.motion != 0 && plane.end == last_end_) {
+      if (keeps_axes_ && plane.motion != 0 && plane.end == last_end_) {
         heights.go_on(last_shift_);
       } else {
         heights.start = moving.lowest(heights.normal, start, plane.vertex);
@@ -228,7 +227,8 @@ class WallPlanes {
     return plane;
   }
 
-  bool part(const Plane& plane, Scalar height) noexcept {
+  /// Notes the plane that parts a triangle; true.
+  bool note_parting(const Plane& plane, Scalar height) noexcept {
     parting_normal_ = plane.heights.normal;
     parting_room_ = plane.heights.start + plane.offset - height;
     return true;
@@ -243,7 +243,7 @@ class WallPlanes {
   int piece_ = 0, last_piece_ = -1;
   bool may_be_near_ = true;
   Vector3<Scalar> to_mesh_;  // from the origin of the hierarchy to that of the motion [m]
-  bool goes_on_ = false;     // the tool is turned as where the last motion ended
+  bool keeps_axes_ = false;     // the tool is turned as where the last motion ended
   std::uint32_t motion_ = 0, end_ = 0, last_end_ = 0;  // counts
   Matrix3<Scalar> axes_at_end_ = Matrix3<Scalar>::Zero();
   Vector3<Scalar> shift_ = Vector3<Scalar>::Zero(), last_shift_ = Vector3<Scalar>::Zero();  // to the end of the motion at hand, and of the last [m]
@@ -251,7 +251,7 @@ class WallPlanes {
   Vector3<Scalar> parting_normal_ = Vector3<Scalar>::Zero();
   Scalar parting_room_ = Scalar(0);
   std::vector<Plane> planes_;
-  std::vector<Cover> covers_;
+  std::vector<RememberedPlane> remembered_;
 };
 
 }  // namespace feeler

@@ -7,9 +7,9 @@
 
 #include "feeler/core/lanes.hpp"
 #include "feeler/qp/dual/dual_tableau.hpp"
-#include "feeler/qp/dual/fresh_look.hpp"
 #include "feeler/qp/dual/held_minimum.hpp"
 #include "feeler/qp/dual/inverse_hessian.hpp"
+#include "feeler/qp/dual/kkt_check.hpp"
 #include "feeler/qp/dual/operator_method.hpp"
 #include "feeler/qp/dual/problem_rows.hpp"
 #include "feeler/qp/dual/row_scan.hpp"
@@ -24,12 +24,13 @@ namespace feeler {
 
 /// Dual active set: the minimum on some rows, whose forces do not pull, is followed to that of the problem.
 ///
-/// In three ways, of which the first one that can does it: where the rows to start from are the active ones, or the only row there is, the minimum on
-/// them is the answer (`detail::HeldMinimum`); of up to 24 rows a table tells which are active, or which contradict each other
-/// (`detail::DualTableau`); and operators in six dimensions follow any number of rows (`detail::OperatorMethod`). What the first two find counts
-/// only where a fresh look at all rows and at the gradient agrees (`detail::FreshLook`); else the third one begins with the rows that they found.
+/// There are three ways, tried in this order. The minimum on the rows to start from, or on the only row there is (`detail::HeldMinimum`). A table
+/// that tells of up to 24 rows which are active, or which contradict each other (`detail::DualTableau`). Operators in six dimensions, for any number
+/// of rows (`detail::OperatorMethod`). What the first two find counts only where it meets the conditions of an optimum (`detail::KktCheck`); else the
+/// third begins with the rows that they found.
+///
 /// Source: D. Goldfarb, A. Idnani, "A numerically stable dual method for solving strictly convex quadratic programs", Mathematical Programming 27
-/// (1983), with dual steepest-edge pricing.
+/// (1983), with dual steepest-edge pricing (`detail::BestRow`).
 ///
 /// Rows are met to `tolerance` [m]. Rows that make an angle below about 1e-8 rad with the span of the active
 /// ones count as dependent. The same input gives the same bits, with every number of lanes and,
@@ -65,8 +66,8 @@ class DualActiveSet {
         is_right(problem, *known, 1, solution))
       return QpStatus::optimal;
     if (problem.row_count <= Tableau::row_capacity) {
-      const Outcome outcome = solve_by_table(problem, solution);
-      if (outcome != Outcome::in_doubt) return outcome == Outcome::optimal ? QpStatus::optimal : QpStatus::infeasible;
+      const QpStatus status = solve_by_table(problem, solution);
+      if (status != in_doubt) return status;
       known = &tableau_.active();
     }
     inverse_.invert();
@@ -79,7 +80,7 @@ class DualActiveSet {
   static constexpr int table_lanes = (std::min)(lanes, 4);  // more make a few rows no quicker
   using Tableau = detail::DualTableau<Scalar, table_lanes>;
 
-  enum class Outcome { optimal, infeasible, in_doubt };
+  static constexpr QpStatus in_doubt = QpStatus::iteration_limit;  // of a way that is not the last one
 
   /// Whether the minimum on known rows is that of the problem: then that is all there is to do.
   [[gnu::always_inline]] inline bool is_right(const Problem& problem, const WarmStart& known, int iterations, Solution& solution) noexcept {
@@ -87,8 +88,9 @@ class DualActiveSet {
     const Six& x = guess_.x();
     if (!is_met(problem, known)) return false;
     Six residual;  // is finite where x is
-    if (look(problem).is_off(inverse_, gradient_, x, known.rows, guess_.multipliers(), guess_.force(), guess_.lacking(), guess_.beside(), residual) ||
-        !isfinite(detail::size_of(residual)))
+    if (kkt_check(problem).fails(inverse_, gradient_, x, known.rows, guess_.multipliers(), guess_.force(), guess_.lacking(), guess_.beside(),
+                                 residual) ||
+        !isfinite(detail::norm1(residual)))
       return false;
     hand_over(known, iterations, solution);
     return true;
@@ -105,16 +107,16 @@ class DualActiveSet {
     solution.iterations = iterations;
   }
 
-  /// Has a table find the active rows of a problem of some rows, or rows that contradict each other, and looks at them afresh.
+  /// Has a table find the active rows of a problem of some rows, or rows that contradict each other, and checks them.
   [[gnu::noinline]]
-  Outcome solve_by_table(const Problem& problem, Solution& solution) noexcept {
+  QpStatus solve_by_table(const Problem& problem, Solution& solution) noexcept {
     const bool is_found = tableau_.find(problem, problem.bounds.data(), inverse_, gradient_, tolerance);
-    if (!is_found && tableau_.refused() < 0) return Outcome::in_doubt;
+    if (!is_found && tableau_.refused() < 0) return in_doubt;
     const WarmStart& active = tableau_.active();
     const auto change_for = [this](const auto& distances) { return this->tableau_.change_for(distances); };
     guess_.place(problem, problem.bounds.data(), active, tableau_.multipliers(), inverse_, gradient_, change_for, tolerance / 2);
-    if (is_found) return is_right(problem, active, 1 + tableau_.steps(), solution) ? Outcome::optimal : Outcome::in_doubt;
-    return is_contradicted(problem, solution) ? Outcome::infeasible : Outcome::in_doubt;
+    if (is_found) return is_right(problem, active, 1 + tableau_.steps(), solution) ? QpStatus::optimal : in_doubt;
+    return is_contradicted(problem, solution) ? QpStatus::infeasible : in_doubt;
   }
 
   /// Whether the row that a table refuses contradicts the active ones.
@@ -125,14 +127,15 @@ class DualActiveSet {
     const auto& rows = tableau_.active().rows;
     Six rest = a;
     for (int i = 0; i < rows.size(); ++i) detail::subtract(detail::row_of(problem, rows[i]), tableau_.shares()[std::size_t(i)], rest);
-    if (!isfinite(detail::size_of(guess_.x())) || detail::size_of(rest) > detail::allowed_rest(a)) return false;
-    if (!look(problem).is_contradiction(tableau_.refused(), a, rest, true, guess_.x(), rows, tableau_.shares(), tolerance, solution)) return false;
+    if (!isfinite(detail::norm1(guess_.x())) || detail::norm1(rest) > detail::allowed_rest(a)) return false;
+    if (!kkt_check(problem).is_contradiction(tableau_.refused(), a, rest, true, guess_.x(), rows, tableau_.shares(), tolerance, solution))
+      return false;
     hand_over(tableau_.active(), tableau_.steps(), solution);
     return true;
   }
 
-  detail::FreshLook<Scalar> look(const Problem& problem) const noexcept {
-    return detail::FreshLook<Scalar>(problem, problem.bounds.data(), tolerance);
+  detail::KktCheck<Scalar> kkt_check(const Problem& problem) const noexcept {
+    return detail::KktCheck<Scalar>(problem, problem.bounds.data(), tolerance);
   }
 
   detail::InverseHessian<Scalar> inverse_;

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <algorithm>
-#include <cmath>
 
 #include "feeler/core/fixed_vector.hpp"
 #include "feeler/core/scalar.hpp"

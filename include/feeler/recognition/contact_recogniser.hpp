@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <limits>
+#include <optional>
 
 #include "feeler/core/fixed_vector.hpp"
 #include "feeler/core/requirement.hpp"
@@ -199,19 +200,23 @@ class ContactRecogniser {
 
   /// Puts one contact with a valley in place of contacts with all of its faces.
   void close_sharp_valleys() noexcept {
+    while (close_sharp_valley()) {}
+  }
+  /// False where there is none.
+  bool close_sharp_valley() noexcept {
     for (int i = 0; i < contacts_.size(); ++i) {
       if (contacts_[i].tool.kind == FeatureKind::face) continue;
       for (int j = i + 1; j < contacts_.size(); ++j) {
         if (contacts_[i].tool != contacts_[j].tool) continue;
-        Feature valley;
-        if (!find_valley(contacts_[i], contacts_[j], valley)) continue;
-        contacts_[i].object = valley;
+        const std::optional<Feature> valley = valley_between(contacts_[i], contacts_[j]);
+        if (!valley) continue;
+        contacts_[i].object = *valley;
         contacts_[i].witnesses |= contacts_[j].witnesses;
         contacts_.swap_remove(j);
-        i = -1;
-        break;
+        return true;
       }
     }
+    return false;
   }
 
   /// Whether a contact touches within ten tolerances of an edge or a vertex of the surface.
@@ -230,27 +235,27 @@ class ContactRecogniser {
     return found;
   }
 
-  /// The concave edge of two faces, or the concave vertex of a face and an edge or of two edges, near a place of touching.
-  bool find_valley(const Candidate& a, const Candidate& b, Feature& valley) const noexcept {
+  /// What is concave and near a place of touching: the edge between two faces, or the vertex between a face and an edge or between two edges.
+  std::optional<Feature> valley_between(const Candidate& a, const Candidate& b) const noexcept {
     const FeatureIncidence& incidence = surface_.incidence();
     const SurfaceSide side = measures().side_at(a.object.kind == FeatureKind::face ? a : b);
     const auto is_near = [&](const Feature& feature) { return surface_.convexity(feature, side) == Convexity::concave && touches_near(feature, a); };
     if (a.object.kind == FeatureKind::face && b.object.kind == FeatureKind::face) {
       const auto first = incidence.face_edges(a.object.index), second = incidence.face_edges(b.object.index);
       for (const int edge : first.size() < second.size() ? first : second) {
-        valley = {FeatureKind::edge, edge};
-        if (incidence.contains(a.object, valley) && incidence.contains(b.object, valley) && is_near(valley)) return true;
+        const Feature valley{FeatureKind::edge, edge};
+        if (incidence.contains(a.object, valley) && incidence.contains(b.object, valley) && is_near(valley)) return valley;
       }
-      return false;
+      return {};
     }
-    if (a.object.kind == FeatureKind::vertex || b.object.kind == FeatureKind::vertex || a.tool.kind != FeatureKind::vertex) return false;
+    if (a.object.kind == FeatureKind::vertex || b.object.kind == FeatureKind::vertex || a.tool.kind != FeatureKind::vertex) return {};
     const Feature& edge = a.object.kind == FeatureKind::edge ? a.object : b.object;
     const Feature& other = a.object.kind == FeatureKind::edge ? b.object : a.object;
     for (const int vertex : incidence.edge_vertices(edge.index)) {
-      valley = {FeatureKind::vertex, vertex};
-      if (incidence.contains(other, valley) && incidence.vertex_faces(vertex).size() == 3 && is_near(valley)) return true;
+      const Feature valley{FeatureKind::vertex, vertex};
+      if (incidence.contains(other, valley) && incidence.vertex_faces(vertex).size() == 3 && is_near(valley)) return valley;
     }
-    return false;
+    return {};
   }
 
   void number_spots() noexcept {

@@ -1,8 +1,6 @@
 // Principal contacts: the twelve ways in which features of a convex tool and of an object touch (paper, Table 1).
 #pragma once
 
-#include <array>
-
 #include "feeler/core/feature.hpp"
 #include "feeler/core/scalar.hpp"
 #include "feeler/object/mesh_topology.hpp"

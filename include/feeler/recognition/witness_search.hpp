@@ -30,7 +30,7 @@ class WitnessSearch {
   /// Triangles within tolerance that are looked at; the others are counted.
   static constexpr int most_triangles = 4096;
 
-  /// Copies the tool and refers to the object. Allocates, a word a feature.
+  /// Copies the tool and refers to the object. Allocates one word for each feature.
   WitnessSearch(const Tool& tool, const TriangleMesh<MeshScalar>& mesh, const SurfaceFeatures<MeshScalar>& surface)
       : tool_(tool),
         mesh_(mesh),
@@ -121,19 +121,20 @@ class WitnessSearch {
     stamp_ = 1;
   }
 
+  /// Of two boxes.
+  static bool are_apart(const Vector& lower, const Vector& upper, const Vector& other_lower, const Vector& other_upper) noexcept {
+    return (lower.array() > other_upper.array()).any() || (upper.array() < other_lower.array()).any();
+  }
   bool is_near(const std::array<float, 3>& box_lower, const std::array<float, 3>& box_upper, const Vector& shift) noexcept {
-    Vector centre, half;
-    for (int k = 0; k < 3; ++k) {
-      const Scalar lower = Scalar(box_lower[std::size_t(k)]) + shift[k], upper = Scalar(box_upper[std::size_t(k)]) + shift[k];
-      if (lower > high_[k] || upper < low_[k]) return false;
-      centre[k] = (lower + upper) / 2;
-      half[k] = (upper - lower) / 2;
-    }
+    const Vector lower = Eigen::Map<const Vector3<float>>(box_lower.data()).template cast<Scalar>() + shift;
+    const Vector upper = Eigen::Map<const Vector3<float>>(box_upper.data()).template cast<Scalar>() + shift;
+    if (are_apart(lower, upper, low_, high_)) return false;
+    const Vector centre = (lower + upper) / 2, half = (upper - lower) / 2;
     return !is_beyond([&](const Plane& plane) { return plane.normal.dot(centre) - plane.normal.cwiseAbs().dot(half); });
   }
   bool may_touch(const Matrix3<Scalar>& corners) noexcept {
     const Vector lower = corners.rowwise().minCoeff(), upper = corners.rowwise().maxCoeff();
-    if ((lower.array() > high_.array()).any() || (upper.array() < low_.array()).any()) return false;
+    if (are_apart(lower, upper, low_, high_)) return false;
     if (is_beyond([&](const Plane& plane) { return (plane.normal.transpose() * corners).minCoeff(); })) return false;
     const Vector normal = triangle_normal<Scalar>(corners.col(0), corners.col(1), corners.col(2));
     Scalar least = std::numeric_limits<Scalar>::infinity(), most = -least;
@@ -191,7 +192,7 @@ class WitnessSearch {
   void look_at_vertex(const Feature& feature, Witnesses& witnesses) noexcept {
     using std::abs;
     const Vector point = local(surface_.vertex(feature.index).point);
-    if ((point.array() > high_.array()).any() || (point.array() < low_.array()).any()) return;
+    if (are_apart(point, point, low_, high_)) return;
     for (int i = 0; i < tool_.vertex_count(); ++i)
       if (is_within(vertex(i), point)) witnesses.add({{FeatureKind::vertex, i}, feature, vertex(i), point});
     for (int e = 0; e < tool_.edge_count(); ++e) {
@@ -217,7 +218,7 @@ class WitnessSearch {
     const SurfaceEdge<MeshScalar>& edge = surface_.edge(feature.index);
     const Vector start = local(edge.start), end = local(edge.end);
     const Vector lower = start.cwiseMin(end), upper = start.cwiseMax(end);
-    if ((lower.array() > high_.array()).any() || (upper.array() < low_.array()).any()) return;
+    if (are_apart(lower, upper, low_, high_)) return;
     for (int i = 0; i < tool_.vertex_count(); ++i) {
       const Vector closest = closest_on_segment<Scalar>(vertex(i), start, end);
       if (is_within(vertex(i), closest)) witnesses.add({{FeatureKind::vertex, i}, feature, vertex(i), closest});
@@ -227,7 +228,7 @@ class WitnessSearch {
       const Vector& tool_end = vertex(tool_.edge(e).end);
       const Vector tool_low = tool_start.cwiseMin(tool_end).array() - tolerance_;
       const Vector tool_high = tool_start.cwiseMax(tool_end).array() + tolerance_;
-      if ((lower.array() > tool_high.array()).any() || (upper.array() < tool_low.array()).any()) continue;
+      if (are_apart(lower, upper, tool_low, tool_high)) continue;
       const auto crossing = crossing_of_segments<Scalar>(tool_start, tool_end, start, end);
       if (!crossing.exists || !is_within(crossing.on_first, crossing.on_second)) continue;
       // Where an end takes part, it is the witness.

@@ -43,7 +43,7 @@ class ClosestFeaturesFollower {
     pose_ = pose;
     linearisation().clear();
     certificate_.clear();
-    goes_on_ = takes_first_alone_ = has_metric_turned_ = is_at_rest_ = false;
+    is_motion_left_ = takes_first_alone_ = has_metric_turned_ = is_at_rest_ = false;
     stage_ = Stage::starting;
     limits_.reset(scene.trust_radius());
   }
@@ -53,22 +53,22 @@ class ClosestFeaturesFollower {
 
   TickStatus follow(const Scene& scene, const Pose<Scalar>& target, Tick<MeshScalar>& tick) noexcept {
     tick.iterations = 0;
-    if (is_at_rest_ && !has_metric_turned_ && is_same(target, target_)) return TickStatus::converged;
+    if (is_at_rest_ && !has_metric_turned_ && target == target_) return TickStatus::converged;
     target_ = target;
     if (stage_ == Stage::starting) turn_idly(scene, tick);
     off_ = off_target(scene, pose_);
-    if (!goes_on_) limits_.reset(scene.trust_radius());
+    if (!is_motion_left_) limits_.reset(scene.trust_radius());
     if (std::exchange(has_metric_turned_, false) || !aims_at_target()) judge_again(scene);
     if (stage_ == Stage::starting) {
       iteration_ = {};
       auto& pairs = linearisation().pairs();
-      pairs.age(scene.touching(), pairs.has_no_clearance(scene.clearance().none()) ? Scalar(0) : scene.noticed(), goes_on_);
+      pairs.age(scene.contact_distance(), pairs.has_no_clearance(scene.clearance().none()) ? Scalar(0) : scene.noticed(), is_motion_left_);
     }
     budget_.begin_tick(scene.settings().work_budget);
-    goes_on_ = !advance(scene, tick);
+    is_motion_left_ = !advance(scene, tick);
     if (stage_ == Stage::starting) turn_idly(scene, tick);
-    is_at_rest_ = !goes_on_ && tick.path.empty();
-    return goes_on_ ? TickStatus::unconverged : TickStatus::converged;
+    is_at_rest_ = !is_motion_left_ && tick.path.empty();
+    return is_motion_left_ ? TickStatus::unconverged : TickStatus::converged;
   }
 
   /// The active rows of the last optimisation.
@@ -110,7 +110,7 @@ class ClosestFeaturesFollower {
     another,    ///< another iteration may do more
     suspended,  ///< the work ran out in it
     arrived,    ///< the pose is a local minimum, or what two linearisations that contradict each other hold it at
-    left,       ///< nothing more comes of it in this tick
+    stalled,    ///< nothing more comes of it in this tick
   };
 
   /// What iterations tell each other, and the next tick where one is suspended.
@@ -137,16 +137,12 @@ class ClosestFeaturesFollower {
     }
   }
 
-  static bool is_same(const Pose<Scalar>& a, const Pose<Scalar>& b) noexcept {
-    return a.translation == b.translation && a.rotation.coeffs() == b.rotation.coeffs();
-  }
-  bool aims_at_target() const noexcept { return is_same(search_.aim(), target_); }
+  bool aims_at_target() const noexcept { return search_.aim() == target_; }
 
   /// The hand has moved since the iteration at hand began: its motion is gone on with as long as it leads nearer, and is not the last.
   void judge_again(const Scene& scene) noexcept {
     search_.motion().is_settled = search_.motion().is_home = false;
-    const bool is_worthwhile = stage_ == Stage::certifying && is_descent(scene);
-    if (stage_ == Stage::noticing || (stage_ == Stage::certifying && !is_worthwhile)) stage_ = Stage::starting;
+    if (stage_ == Stage::noticing || (stage_ == Stage::certifying && !is_descent(scene))) stage_ = Stage::starting;
   }
 
   /// Whether it arrived.
@@ -159,9 +155,9 @@ class ClosestFeaturesFollower {
       budget_.begin_iteration(tick.work);
       outcome = iterate(scene, tick);
       if (outcome == Outcome::arrived && !aims_at_target()) outcome = Outcome::another;
-      if (outcome == Outcome::arrived && !problem().is_optimal()) outcome = Outcome::left;
+      if (outcome == Outcome::arrived && !problem().is_optimal()) outcome = Outcome::stalled;
     } while (outcome == Outcome::another && tick.iterations < maximum_iterations && budget_.allows_another(tick.work) &&
-             !(limits_.trust() < resting(scene)));
+             !(limits_.trust() < scene.no_motion()));
     if (outcome == Outcome::suspended) ++iteration_.ticks;
     else stage_ = Stage::starting;
     if (outcome == Outcome::another || outcome == Outcome::suspended) limits_.carry_over();
@@ -170,17 +166,19 @@ class ClosestFeaturesFollower {
 
   /// Goes on with an iteration, or begins one.
   Outcome iterate(const Scene& scene, Tick<MeshScalar>& tick) noexcept {
-    const Stage stage = stage_;
-    if (stage == Stage::starting || stage == Stage::measuring) {
-      if (stage == Stage::starting) {
+    switch (stage_) {
+      case Stage::starting:
         search_.begin(pose_, target_);
         iteration_.work = iteration_.ticks = 0;
-      }
-      const Outcome outcome = choose(scene, tick);
-      if (outcome != Outcome::proposed) return outcome;
-      if (!aims_at_target()) judge_again(scene);
+        [[fallthrough]];
+      case Stage::measuring:
+        if (const Outcome outcome = choose(scene, tick); outcome != Outcome::proposed) return outcome;
+        if (!aims_at_target()) judge_again(scene);
+        return certify(scene, false, tick);
+      case Stage::certifying: return certify(scene, true, tick);
+      case Stage::noticing: break;
     }
-    return stage == Stage::noticing ? look_around(scene, true, tick) : go(scene, stage == Stage::certifying, tick);
+    return look_around(scene, true, tick);
   }
 
   /// Chooses a motion.
@@ -193,7 +191,7 @@ class ClosestFeaturesFollower {
     const TrialMotion<Scalar>& trial = search_.motion();
     takes_first_alone_ = trial.goes_back;
     it.length = scene.length_of(trial.motion, pose_);
-    if (!trial.is_settled && !it.came_to_nothing && it.length < Search::very_short(scene)) {
+    if (!trial.is_settled && !it.came_to_nothing && it.length < scene.very_short()) {
       // One linearisation takes back what another asks for, as a triangle is missing from both: the first alone will meet it.
       it.came_to_nothing = true;
       it.is_taken_back = trial.is_taken_back;
@@ -204,7 +202,7 @@ class ClosestFeaturesFollower {
     const Pose<Scalar> end = scene.idle_turns().moved(pose_, trial.motion);
     if (it.came_to_nothing && (is_held || trial.is_at_rest) && !descends_clearly(scene.metric(), off_, off_target(scene, end), scene.margin()))
       return Outcome::arrived;
-    if (it.length <= resting(scene)) return trial.is_settled && !trial.is_capped ? Outcome::arrived : Outcome::left;
+    if (it.length <= scene.no_motion()) return trial.is_settled && !trial.is_capped ? Outcome::arrived : Outcome::stalled;
     it.came_to_nothing = false;
     it.end = end;
     if (is_descent(scene)) return Outcome::proposed;
@@ -213,13 +211,13 @@ class ClosestFeaturesFollower {
   }
 
   /// Certifies the motion chosen, or goes on with it, and moves as far as that is.
-  Outcome go(const Scene& scene, bool goes_on, Tick<MeshScalar>& tick) noexcept {
+  Outcome certify(const Scene& scene, bool is_resumed, Tick<MeshScalar>& tick) noexcept {
     Iteration& it = iteration_;
     stage_ = Stage::certifying;
     const int begun = tick.work;
-    const auto result = goes_on ? certificate_.go_on(scene, tick.work, budget_.limit(), linearisation().pairs())
-                                : certificate_.certify(scene, pose_, search_.motion().motion, tick.work, budget_.limit(), linearisation().pairs(),
-                                                       Search::reach_of_step(scene, limits_));
+    const auto result = is_resumed ? certificate_.go_on(scene, tick.work, budget_.limit(), linearisation().pairs())
+                                   : certificate_.certify(scene, pose_, search_.motion().motion, tick.work, budget_.limit(), linearisation().pairs(),
+                                                          Search::reach_of_step(scene, limits_));
     it.work += tick.work - begun;
     if (result.is_exhausted) return Outcome::suspended;
     stage_ = Stage::starting;
@@ -240,18 +238,18 @@ class ClosestFeaturesFollower {
   }
 
   /// Ends a motion that was certified whole and is the last one, if nothing near where it ends is unknown; else what was not known is from now on.
-  Outcome look_around(const Scene& scene, bool goes_on, Tick<MeshScalar>& tick) noexcept {
+  Outcome look_around(const Scene& scene, bool is_resumed, Tick<MeshScalar>& tick) noexcept {
     Iteration& it = iteration_;
     const auto& pairs = linearisation().pairs();
     const int begun = tick.work;
     const NoticedTriangles noticed =
-        goes_on ? certificate_.go_on_noticing(scene, tick.work, budget_.limit(), pairs)
-                : certificate_.notice(scene, it.end, tick.work, budget_.limit(), pairs, Search::reach_of_step(scene, limits_));
+        is_resumed ? certificate_.go_on_noticing(scene, tick.work, budget_.limit(), pairs)
+                   : certificate_.notice(scene, it.end, tick.work, budget_.limit(), pairs, Search::reach_of_step(scene, limits_));
     it.work += tick.work - begun;
     const bool is_done = !noticed.is_exhausted && !take_in_noticed(linearisation().pairs(), scene, noticed);
     const bool is_home = is_done && search_.motion().is_home;
-    if (!goes_on || is_home) move_to(scene, is_home ? target_ : it.end, it.length, tick);
-    if (!goes_on && !is_done) widen(scene);
+    if (!is_resumed || is_home) move_to(scene, is_home ? target_ : it.end, it.length, tick);
+    if (!is_resumed && !is_done) widen(scene);
     stage_ = noticed.is_exhausted ? Stage::noticing : Stage::starting;
     return noticed.is_exhausted ? Outcome::suspended : is_done ? Outcome::arrived : Outcome::another;
   }
@@ -270,9 +268,6 @@ class ClosestFeaturesFollower {
     else limits_.widen(it.work);
   }
 
-  /// A motion as short as this is none [m].
-  static Scalar resting(const Scene& scene) noexcept { return Scalar(scene.settings().step_tolerance) / 500000; }
-
   Twist<Scalar> off_target(const Scene& scene, const Pose<Scalar>& pose) const noexcept { return scene.idle_turns().motion_between(target_, pose); }
 
   /// Whether the motion at hand is to be made, by what it leads to.
@@ -283,7 +278,7 @@ class ClosestFeaturesFollower {
   Pose<Scalar> pose_;  // the certified pose
   Pose<Scalar> target_;  // the haptic pose
   Twist<Scalar> off_;  // of the certified pose from it
-  bool goes_on_ = false;  // the last tick left motion for this one
+  bool is_motion_left_ = false;  // the last tick left motion for this one
   bool has_metric_turned_ = false;  // since the last tick
   bool is_at_rest_ = false;  // the last tick moved nothing, as the pose is the minimum: nor does the next, until the hand moves
   bool takes_first_alone_ = false;  // the next motion, maybe in the next tick, is the first step: the last went back, as a triangle is missing

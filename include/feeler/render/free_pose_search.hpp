@@ -67,8 +67,7 @@ class FreePoseSearch {
     return scene_.radius() + round;
   }
 
-  /// Calls `visit(piece, triangle, its corners in the tool frame)` for the pairs whose boxes meet, until it
-  /// returns false.
+  /// Calls `visit(piece, triangle)` for the pairs whose boxes meet, until it returns false.
   template <class Visit>
   void visit_near(const Pose<Scalar>& pose, const Visit& visit) const noexcept {
     bool goes_on = true;

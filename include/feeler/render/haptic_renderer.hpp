@@ -2,7 +2,6 @@
 #pragma once
 
 #include <algorithm>
-#include <limits>
 #include <memory>
 #include <string>
 
@@ -30,8 +29,8 @@ namespace feeler {
 /// object and that a collision-free path joins to the last pose. With the default contact method the path is certified triangle by triangle
 /// (`Sweep`), so whatever the device does, a pose that is returned is free of collision and nothing thin is crossed.
 ///
-/// The object must outlive the renderer. One renderer belongs to one thread at a time.
-/// It takes some kilobytes where it is; what ticks work on is on the heap from its construction on: 0.3 MB, and 4 kB more for each further piece of the tool.
+/// The object must outlive the renderer. One renderer belongs to one thread at a time. It takes some kilobytes where it is; what ticks work on is on
+/// the heap from its construction on: 0.3 MB, and 4 kB more for each further piece of the tool.
 /// @tparam Tool    a `RigidTool`; its scalar is the renderer's
 /// @tparam Solver  a `QpSolver` on the working scalar
 /// @tparam Method  a `ContactMethod`: how contact is modelled
@@ -59,8 +58,8 @@ class HapticRenderer {
   /// What does not change: object, tool, metric and settings.
   const RenderedScene<Tool>& scene() const noexcept { return scene_; }
 
-  /// Puts the graphic tool at a pose; `TickStatus::penetrating` if it would overlap the object there, `TickStatus::inside` if it would be in a solid, and
-  /// then the renderer holds no pose and no force. `nearest_free_pose` finds one.
+  /// Puts the graphic tool at a pose; `TickStatus::penetrating` if it would overlap the object there, `TickStatus::inside` if it would be in a solid,
+  /// and then the renderer holds no pose and no force. `nearest_free_pose` finds one.
   /// @cost  not bounded by the work budget: for use outside the loop
   TickStatus reset(const Pose<Scalar>& pose) noexcept;
 
@@ -69,9 +68,9 @@ class HapticRenderer {
   /// @cost  noexcept; no allocation, lock, clock or I/O; bounded by `Settings::maximum_iterations` and `work_budget`
   const Tick<Scalar>& update(const Pose<Scalar>& haptic_pose) noexcept { return update_along(haptic_pose, along_poses()); }
 
-  /// One tick with stiffness and metric along other axes than those of the poses, which may be others in each tick: those of a device's base as a turning
-  /// object sees it, or those of the hand. All promises of a tick hold; the wrench is `wrench_along` these axes, and `wrench_along_tool` is that of
-  /// axes that turn with the hand.
+  /// One tick with stiffness and metric along other axes than those of the poses, which may be others in each tick: those of a device's base as a
+  /// turning object sees it, or those of the hand. All promises of a tick hold; the wrench is `wrench_along` these axes, and `wrench_along_tool` is
+  /// that of axes that turn with the hand.
   /// @param world_from_axes  need not be unit; the identity is `update(haptic_pose)`, to the last bit
   const Tick<Scalar>& update(const Pose<Scalar>& haptic_pose, const Quaternion<Scalar>& world_from_axes) noexcept
     requires TurningMetricMethod<Method, ToolType, Solver>

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <algorithm>
-#include <array>
 #include <bitset>
 #include <limits>
 #include <optional>
@@ -88,13 +87,7 @@ class MotionCertificate {
         if (!is_near_[std::size_t(piece_)]) continue;
       }
       const MovingTool<Piece> standing = scene.moving(piece_, from_, {});
-      FixedVector<KnownTriangle<Scalar>, pair_capacity> known;
-      for (int i = 0; i < pairs.size(); ++i) {
-        const auto& pair = pairs[i];
-        if (pair.piece != piece_ || pair.is_beyond(reach_)) continue;
-        const Vector3<Scalar>& normal = pair.last_normal.isZero(Scalar(0)) ? pair.normal : pair.last_normal;
-        known.push_back({pair.triangle, {.corners = pair.corners_world.colwise() - standing.origin(), .normal = normal, .features = pair.features}});
-      }
+      const auto known = known_triangles(pairs, standing.origin(), true);
       const std::span<const KnownTriangle<Scalar>> all{known.begin(), std::size_t(known.size())};
       NoticedTriangles noticed;
       if (is_in_piece_) {
@@ -144,11 +137,11 @@ class MotionCertificate {
     is_in_piece_ = false;
   }
 
-  /// @param is_again  what the work did not suffice for is begun again
+  /// @param is_resumed  what the work did not suffice for is begun again
   template <int pair_capacity>
-  SweepResult<Scalar> run(const Scene& scene, int& work, int limit, const WorkingSet<Scalar, pair_capacity>& pairs, bool is_again) noexcept {
+  SweepResult<Scalar> run(const Scene& scene, int& work, int limit, const WorkingSet<Scalar, pair_capacity>& pairs, bool is_resumed) noexcept {
     if constexpr (CompoundShape<ToolType>) {
-      if (!find_near_pieces(scene, work, limit, is_again)) return exhausted();
+      if (!find_near_pieces(scene, work, limit, is_resumed)) return exhausted();
     }
     for (; piece_ < scene.piece_count(); ++piece_) {
       if constexpr (CompoundShape<ToolType>) {
@@ -191,7 +184,7 @@ class MotionCertificate {
   }
 
   /// Finds the pieces that no group shows to pass everything; false where the work ran out.
-  bool find_near_pieces(const Scene& scene, int& work, int limit, bool is_again) noexcept
+  bool find_near_pieces(const Scene& scene, int& work, int limit, bool is_resumed) noexcept
     requires CompoundShape<ToolType>
   {
     const auto nodes = scene.piece_groups();
@@ -208,8 +201,8 @@ class MotionCertificate {
       }
       if (work >= limit) return false;
       const bool is_clear = passes(group, scene, scene.moving(node, from_, motion_), work, limit);
-      if (!is_clear && work >= limit && !is_again) return false;
-      is_again = false;
+      if (!is_clear && work >= limit && !is_resumed) return false;
+      is_resumed = false;
       if (is_clear) next_group_ += std::size_t(node.subtree_size() - 1);
       else group.rest = rest_after_failure;
     }
@@ -224,6 +217,20 @@ class MotionCertificate {
     return clearance;
   }
 
+  /// What is known near the piece at hand, relative to the origin of a motion.
+  /// @param is_standing  where a motion ended: a plane found there is the better one
+  template <int pair_capacity>
+  FixedVector<KnownTriangle<Scalar>, pair_capacity> known_triangles(const WorkingSet<Scalar, pair_capacity>& pairs, const Vector3<Scalar>& origin,
+                                                                    bool is_standing) const noexcept {
+    FixedVector<KnownTriangle<Scalar>, pair_capacity> known;
+    for (const auto& pair : pairs) {
+      if (pair.piece != piece_ || pair.is_beyond(reach_)) continue;
+      const Vector3<Scalar>& normal = is_standing && !pair.last_normal.isZero(Scalar(0)) ? pair.last_normal : pair.normal;
+      known.push_back({pair.triangle, {pair.corners_world.colwise() - origin, normal, pair.features, true, pair.last_normal}});
+    }
+    return known;
+  }
+
   static bool passes(Group& group, const Scene& scene, const MovingTool<Box<Scalar>>& moving, int& work, int limit) noexcept {
     return Sweep<Box<Scalar>>(group.planes, noticing_clearance(scene, moving)).parts(scene.object(), moving, work, limit);
   }
@@ -232,12 +239,7 @@ class MotionCertificate {
   template <int pair_capacity>
   SweepResult<Scalar> certify_piece(const Scene& scene, const MovingTool<Piece>& moving, int& work, int limit,
                                     const WorkingSet<Scalar, pair_capacity>& pairs) noexcept {
-    FixedVector<KnownTriangle<Scalar>, pair_capacity> known;
-    for (int i = 0; i < pairs.size(); ++i) {
-      const auto& pair = pairs[i];
-      if (pair.piece != piece_ || pair.is_beyond(reach_)) continue;
-      known.push_back({pair.triangle, {pair.corners_world.colwise() - moving.origin(), pair.normal, pair.features, true, pair.last_normal}});
-    }
+    const auto known = known_triangles(pairs, moving.origin(), false);
     const std::span<const KnownTriangle<Scalar>> all{known.begin(), std::size_t(known.size())};
     if (is_in_piece_) {
       sweep_->work_with(planes_[std::size_t(piece_)], &walls_);

@@ -2,13 +2,13 @@
 #pragma once
 
 #include <algorithm>
-#include <array>
 #include <limits>
 #include <span>
 #include <type_traits>
 #include <utility>
 #include <vector>
 
+#include "feeler/core/index.hpp"
 #include "feeler/core/requirement.hpp"
 #include "feeler/object/triangle_mesh.hpp"
 #include "feeler/proximity/clearance.hpp"
@@ -37,8 +37,8 @@ auto working_tool(const Tool& tool) {
 }
 }  // namespace detail
 
-/// The constant part of a rendering, but for the axes of the metric. Poses that a contact method works on are those of the reference point: their translation is where it
-/// is in the world, not where the origin of the tool frame is.
+/// The constant part of a rendering, but for the axes of the metric. Poses that a contact method works on are those of the reference point: their
+/// translation is where it is in the world, not where the origin of the tool frame is.
 template <RigidTool ToolType>
 class RenderedScene {
  public:
@@ -111,7 +111,12 @@ class RenderedScene {
   /// What is nearer may be what holds the tool; what rests at the margin is far enough [m].
   Scalar noticed() const noexcept { return margin_ - margin_ / 1000; }
   /// What is nearer touches: any motion may meet it [m].
-  Scalar touching() const noexcept { return 4 * margin_; }
+  Scalar contact_distance() const noexcept { return 4 * margin_; }
+  /// `Settings::step_tolerance`; and what is short whatever the step before it was, what is rest where a motion starts, and what is no motion [m].
+  Scalar step_tolerance() const noexcept { return Scalar(settings_.step_tolerance); }
+  Scalar very_short() const noexcept { return step_tolerance() / 50; }
+  Scalar at_rest() const noexcept { return very_short() / 100; }
+  Scalar no_motion() const noexcept { return step_tolerance() / 500000; }
   Scalar trust_radius() const noexcept { return Scalar(settings_.trust_radius); }
   /// Features up to this height above a triangle give rows, those with a gap up to a quarter of it: of a step, and twice the margin at least, or none
   /// would keep it [m].
@@ -160,7 +165,6 @@ class RenderedScene {
     refuse_for(reason_against_scene(object, tool, settings));
     return settings;
   }
-  static std::size_t index(int i) noexcept { return std::size_t(i); }
   /// A sphere's turns may weigh nothing; where nobody turns it any other weight does as well.
   static Metric<Scalar> metric_of(const Settings<MeshScalar>& settings) noexcept {
     Metric<Scalar> metric = settings.metric_in_use().template cast<Scalar>();

@@ -22,15 +22,15 @@ struct Settings {
   /// is to be felt, needs a `metric`: nothing else would draw the tool to the hand there.
   Stiffness<Scalar> stiffness = {};
 
-  /// M of the paper's eq. 3, along the same axes as K: those of the poses, or those that `update` is given. Unset, it is proportional to K, and the wrench is the exact sum of the contact forces; another metric
-  /// bends the wrench out of the contact cone.
+  /// M of the paper's eq. 3, along the same axes as K: those of the poses, or those that `update` is given. Unset, it is proportional to K, and the
+  /// wrench is the exact sum of the contact forces; another metric bends the wrench out of the contact cone.
   std::optional<Metric<Scalar>> metric = {};
   Metric<Scalar> metric_in_use() const noexcept { return metric ? metric->normalized() : Metric<Scalar>::proportional_to(stiffness); }
 
-  /// Distance kept between tool and object [m]. It smooths the edges of the obstacle: less is more exact and needs more
-  /// iterations; below 1e-8 convergence is lost, above 1e-5 it can be felt. Tighter fits than twice the margin are still rendered.
-  /// Less than 1e-10 is refused, and more than 1e-3. With poses of `float` it is not less than ten times their rounding, which exceeds the default where
-  /// the object reaches a metre from the origin.
+  /// Distance kept between tool and object [m]. It smooths the edges of the obstacle: less is more exact and needs more iterations; below 1e-8
+  /// convergence is lost, above 1e-5 it can be felt. Tighter fits than twice the margin are still rendered. Less than 1e-10 is refused, and more than
+  /// 1e-3. With poses of `float` it is not less than ten times their rounding, which exceeds the default where the object reaches a metre from the
+  /// origin.
   Scalar margin = Scalar(1e-6);
 
   /// Whether what a closed surface of the object encloses is solid, so that `reset` refuses a tool inside. False for a room whose normals point
@@ -45,11 +45,12 @@ struct Settings {
   /// A step that moves no tool point farther than this, and a tenth of the step before it, ends a tick as converged [m]. 1e-12 to 1e-3.
   Scalar step_tolerance = Scalar(5e-6);
 
-  /// Linearisations a tick, at most 32; when they are spent the rest of the motion is left for the next ticks.
+  /// Iterations a tick, at most 32: each finds a motion, by up to four linearisations, and certifies it. When they are spent the rest of the motion
+  /// is left for the next ticks.
   int maximum_iterations = 12;
 
-  /// Work a tick, in units of one distance query between the tool and a triangle, or one optimisation (with all that goes with it, about 0.7 µs
-  /// for 32 vertices). A tick ends within a fifth more than it, on the certified pose that it has, and the next goes on with what it was at. Less bounds
+  /// Work a tick, in units of one distance query between the tool and a triangle, or one optimisation (with all that goes with it, about 0.7 µs for
+  /// 32 vertices). A tick ends within a fifth more than it, on the certified pose that it has, and the next goes on with what it was at. Less bounds
   /// the worst tick, and lets the tool lag where the solution jumps, or where what is all around the tool takes some ticks to look at.
   int work_budget = 128;
 };

@@ -34,14 +34,14 @@ struct Tick {
   FixedVector<ActiveContact<Scalar>, contact_capacity> contacts;
   TickStatus status = TickStatus::not_reset;
 
-  /// The way from the last graphic pose to this one, which is its last pose: between poses the reference point moves on a straight line and
-  /// the axes turn at a constant rate, by 3 rad at most and so the shorter way round, free of collision all along. Empty when the tool did not
-  /// move. After `update_until_converged` it is the way of the last update.
+  /// The way from the last graphic pose to this one, which is its last pose, free of collision all along. Between poses the reference point moves on
+  /// a straight line and the axes turn at a constant rate, by 3 rad at most and so the shorter way round. Empty when the tool did not move. After
+  /// `update_until_converged` it is the way of the last update.
   FixedVector<Pose<Scalar>, path_capacity> path;
 
-  int iterations = 0;  ///< linearisations solved
-  int rows = 0;        ///< rows of the last optimisation
-  int work = 0;        ///< in the unit of `Settings::work_budget`
+  int iterations = 0;  ///< motions looked for, each by up to four linearisations
+  int rows = 0;  ///< rows of the last optimisation
+  int work = 0;  ///< in the unit of `Settings::work_budget`
 
   bool converged() const noexcept { return status == TickStatus::converged; }
 };

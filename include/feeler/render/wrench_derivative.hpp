@@ -161,8 +161,8 @@ class PushingRows {
 ///
 ///     H x + F dh ∈ span Jₖ,  Jₖ x = 0,   H = ∂²f/∂g² − Σ λₖ ∂²sₖ/∂g²,   F = ∂²f/∂g∂h
 ///
-/// (the KKT conditions of the active set, differentiated), and the wrench of the paper's eq. 4, K e(g, h), by
-/// ∂W/∂g x + ∂W/∂h dh: in flat space K (x − dh). Axes that `update` was given for stiffness and metric stand. Nothing is added to a tick that does not ask.
+/// (the KKT conditions of the active set, differentiated), and the wrench of the paper's eq. 4, K e(g, h), by ∂W/∂g x + ∂W/∂h dh: in flat space K (x
+/// − dh). Axes that `update` was given for stiffness and metric stand. Nothing is added to a tick that does not ask.
 /// @cost  noexcept, no allocation; a factorisation and some eigenvalues of 6×6 matrices: half of a tick in the cavity, a
 ///        fifth of one on terrain
 template <RigidTool Tool, QpSolver Solver, class Method>

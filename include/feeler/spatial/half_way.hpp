@@ -4,13 +4,12 @@
 #include <cmath>
 #include <optional>
 
-#include "feeler/core/scalar.hpp"
 #include "feeler/spatial/pose.hpp"
 
 namespace feeler {
 
-/// Half way from one pose to another by the shorter way round, where they are turned from each other by 3 rad or more; where by less there is none, as
-/// the two tell by themselves. At half a turn it is one of the two ways round.
+/// Half way from one pose to another by the shorter way round, where they are turned from each other by 3 rad or more; where by less there is none,
+/// as the two tell by themselves. At half a turn it is one of the two ways round.
 ///
 /// The two quaternions are a quarter turn of their sphere apart or nearly so, so that their middle is as exact as they are.
 template <class Scalar>

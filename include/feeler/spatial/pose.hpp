@@ -25,6 +25,8 @@ struct Pose {
     return {-(back * translation), back};
   }
 
+  /// The same numbers: of a quaternion and its opposite, one rotation, false.
+  bool operator==(const Pose& other) const noexcept { return translation == other.translation && rotation.coeffs() == other.rotation.coeffs(); }
   /// False for a NaN, a number too large to be squared, an infinity among them, or a quaternion too short to be normalised.
   bool is_finite() const noexcept {
     using std::isfinite;

@@ -25,8 +25,9 @@ Wrench<Scalar> wrench_along(const Quaternion<Scalar>& world_from_axes, const Sti
 
 /// The wrench of a stiffness along the axes of the haptic tool, which turn with the hand: a pen that is soft along its shaft.
 ///
-/// With d = p_g − p_h, φ = Log(R_hᵀ R_g) and the energy ½ dᵀ R_h K_t R_hᵀ d + ½ φᵀ K_r φ, it is the negative gradient by the haptic pose: force F = R_h K_t R_hᵀ d,
-/// torque d × F + R_h J_l⁻ᵀ(φ) K_r φ. Without d × F, which is how a turn of the axes bends the force, a closed motion of the hand would gain energy.
+/// With d = p_g − p_h, φ = Log(R_hᵀ R_g) and the energy ½ dᵀ R_h K_t R_hᵀ d + ½ φᵀ K_r φ, it is the negative gradient by the haptic pose: force F =
+/// R_h K_t R_hᵀ d, torque d × F + R_h J_l⁻ᵀ(φ) K_r φ. Without d × F, which is how a turn of the axes bends the force, a closed motion of the hand
+/// would gain energy.
 /// @param haptic, graphic  poses of the reference point; unit
 /// @return  world axes, at the reference point of the haptic pose
 template <RealScalar Scalar>

@@ -25,7 +25,7 @@ template <RealScalar Scalar_>
 class ConvexPolytope {
  public:
   using Scalar = Scalar_;
-  static constexpr int max_vertex_count = 32767;  // what a `WitnessFeatures` can name
+  static constexpr int maximum_vertex_count = 32767;  // what a `WitnessFeatures` can name
 
   /// The convex hull of points, one a row [m]; any number of them, in any order, inside points and duplicates
   /// included.
@@ -33,7 +33,7 @@ class ConvexPolytope {
   /// Vertices are bit-identical to points given. Points less than 4 eps × size outside a face are dropped,
   /// faces coplanar to that are merged; size is the diagonal of the bounding box plus the largest coordinate,
   /// where the rounding of the points comes from. Refuses fewer than 4 points, points not finite, all equal,
-  /// on a line or in a plane, and hulls of more than `max_vertex_count` vertices.
+  /// on a line or in a plane, and hulls of more than `maximum_vertex_count` vertices.
   /// @cost  allocates; milliseconds for thousands of points
   static ConvexPolytope hull_of(const Points<Scalar>& points) { return try_hull_of(points).value(); }
   /// The same, or the reason against it.
@@ -52,9 +52,9 @@ class ConvexPolytope {
       const detail::HullFaces faces(corners, triangles, lattice.tolerance);
       const std::vector<int> kept = faces.corners();
       if (kept.size() == corners.size() || kept.size() < 4) {
-        if (int(corners.size()) > max_vertex_count)
+        if (int(corners.size()) > maximum_vertex_count)
           return Result<ConvexPolytope>::refused("ConvexPolytope: the hull has " + std::to_string(corners.size()) + " vertices and may have " +
-                                                 std::to_string(max_vertex_count) + "; simplify the shape, or split it into convex pieces");
+                                                 std::to_string(maximum_vertex_count) + "; simplify the shape, or split it into convex pieces");
         return ConvexPolytope(points, rows, faces.polygons());
       }
       for (std::size_t i = 0; i < kept.size(); ++i) {

@@ -63,7 +63,7 @@ void write_polygon(Scalar radius, Scalar z, int facets, Facets side, int first_r
 /// @param facets  3 to 16383
 template <RealScalar Scalar>
 ConvexPolytope<Scalar> cylinder(Scalar radius, Scalar height, int facets = 32, Facets side = Facets::inscribed) {
-  detail::check_round_solid("cylinder", radius, height, facets, ConvexPolytope<Scalar>::max_vertex_count / 2);
+  detail::check_round_solid("cylinder", radius, height, facets, ConvexPolytope<Scalar>::maximum_vertex_count / 2);
   Points<Scalar> points(2 * facets, 3);
   detail::write_polygon<Scalar>(radius, -height / 2, facets, side, 0, points);
   detail::write_polygon<Scalar>(radius, height / 2, facets, side, facets, points);
@@ -76,7 +76,7 @@ ConvexPolytope<Scalar> cylinder(Scalar radius, Scalar height, int facets = 32, F
 /// @param facets  3 to 32766
 template <RealScalar Scalar>
 ConvexPolytope<Scalar> cone(Scalar radius, Scalar height, int facets = 32, Facets side = Facets::inscribed) {
-  detail::check_round_solid("cone", radius, height, facets, ConvexPolytope<Scalar>::max_vertex_count - 1);
+  detail::check_round_solid("cone", radius, height, facets, ConvexPolytope<Scalar>::maximum_vertex_count - 1);
   Points<Scalar> points(facets + 1, 3);
   detail::write_polygon<Scalar>(radius, -height, facets, side, 0, points);
   points.row(facets).setZero();

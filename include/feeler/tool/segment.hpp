@@ -1,7 +1,6 @@
 // The thinnest tool: a straight line between two points.
 #pragma once
 
-#include <cmath>
 #include <string>
 
 #include "feeler/core/requirement.hpp"

@@ -11,6 +11,7 @@
 
 #include <Eigen/Core>
 
+#include "feeler/core/index.hpp"
 #include "feeler/core/scalar.hpp"
 
 namespace feeler {
@@ -67,7 +68,6 @@ class SupportBlocks {
     int point = 0;
   };
 
-  static std::size_t index(int i) noexcept { return std::size_t(i); }
   int block_count() const noexcept { return int(blocks_.size()); }
   Vector3<Scalar> point_of(int place) const { return points_[index(numbers_[index((std::min)(place, count() - 1))])]; }
 

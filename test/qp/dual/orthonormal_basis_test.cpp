@@ -49,7 +49,7 @@ BOOST_AUTO_TEST_CASE(nearly_parallel_vectors_are_orthonormal_and_their_factor_gi
       basis.append(rest, coefficients[size]);
       check_orthonormal(basis, size + 1);
       for (std::size_t i = 0; i <= size; ++i) feeler::detail::subtract(basis[i], coefficients[i], vector);
-      BOOST_TEST(feeler::detail::largest_of(vector) < rounding);
+      BOOST_TEST(feeler::detail::norm_inf(vector) < rounding);
     }
   }
 }

@@ -2,6 +2,8 @@
 
 #include <boost/test/unit_test.hpp>
 
+#include <array>
+#include <cstddef>
 #include <utility>
 
 #include "feeler/qp/dual_active_set.hpp"
@@ -47,6 +49,21 @@ struct Room {
   PairState state(int triangle) { return lines.pairs()[lines.pairs().find(0, triangle)].state; }
   static Twist<double> along_x(double x) { return {{x, 0, 0}, Vector::Zero()}; }
 };
+
+/// Separate triangles at z = 0 under the cube, in a square of so many a side.
+TriangleMesh<double> chips(int side) {
+  const double pitch = 2 * half / (side + 1);
+  Points<double> vertices(3 * side * side, 3);
+  Triangles triangles(side * side, 3);
+  for (int t = 0; t < side * side; ++t) {
+    const double x = (t % side + 1) * pitch - half, y = (t / side + 1) * pitch - half;
+    for (int k = 0; k < 3; ++k) {
+      vertices.row(3 * t + k) << x + (k == 1 ? pitch / 3 : 0), y + (k == 2 ? pitch / 3 : 0), 0;
+      triangles(t, k) = 3 * t + k;
+    }
+  }
+  return {vertices, triangles};
+}
 
 }  // namespace
 
@@ -158,8 +175,8 @@ BOOST_AUTO_TEST_CASE(what_stopped_a_step_can_be_kept_where_it_ended_though_nothi
   room.lines.start_measured(room.scene, Room::stand(), reach, room.tick);
   auto& problem = room.lines.problem();
   const Twist<double> from_hand{Vector(-2e-4, 0, 0), Vector::Zero()};  // the hand is in the wall
-  problem.project(room.scene.metric(), from_hand, room.scene.margin());
-  problem.bend(room.scene.metric(), from_hand);
+  problem.solve_gauss_newton(room.scene.metric(), from_hand, room.scene.margin());
+  problem.solve_newton(room.scene.metric(), from_hand);
   BOOST_TEST_REQUIRE(!problem.is_free());
   const Twist<double> back = Room::along_x(-5e-5);
   room.lines.remember_stops(back);
@@ -222,6 +239,19 @@ BOOST_AUTO_TEST_CASE(what_blocks_is_new_unless_it_has_rows_and_only_a_ghost_is_k
     return result;
   }()));
   BOOST_TEST(other.lines.pairs().find(0, 1) >= 0);
+}
+
+BOOST_AUTO_TEST_CASE(a_pair_for_whose_rows_there_is_no_room_is_not_said_to_have_any) {
+  constexpr int side = 10;  // three corners each: more rows than a problem has
+  Room room(chips(side), {});
+  for (int t = 0; t < side * side; ++t) room.lines.pairs().add(0, t, room.object.corners(t));
+  room.lines.start_measured(room.scene, Room::stand(), reach, room.tick);
+  const auto& problem = room.lines.problem();
+  BOOST_TEST(problem.row_count() == Lines::Problem::row_capacity);
+  std::array<bool, side * side> has_row{};
+  for (int k = 0; k < problem.row_count(); ++k) has_row[std::size_t(problem.row(k).triangle)] = true;
+  BOOST_TEST(!has_row.back());
+  for (int t = 0; t < side * side; ++t) BOOST_TEST((room.state(t) == PairState::has_rows) == has_row[std::size_t(t)]);
 }
 
 BOOST_AUTO_TEST_SUITE_END()

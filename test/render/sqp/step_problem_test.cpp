@@ -31,8 +31,8 @@ Vector6<double> step_of(Problem& problem, double short_by, const Eigen::Vector3d
   BOOST_TEST_REQUIRE(problem.add(row, {0.0}));
   const Metric<double> metric;
   const Twist<double> graphic_from_haptic{-hand, Eigen::Vector3d::Zero()};
-  problem.project(metric, graphic_from_haptic, 0.0);
-  return problem.bend(metric, graphic_from_haptic);
+  problem.solve_gauss_newton(metric, graphic_from_haptic, 0.0);
+  return problem.solve_newton(metric, graphic_from_haptic);
 }
 
 }  // namespace
@@ -84,7 +84,7 @@ BOOST_AUTO_TEST_CASE(between_two_walls_a_step_leaves_what_its_certificate_requir
       const double certified_gap = gap > clearance.negligible() ? gap : 0;
       BOOST_TEST_REQUIRE(problem.add(floor, {certified_gap, is_spare}));
       BOOST_TEST_REQUIRE(problem.add(ceiling, {certified_gap}));
-      problem.project(Metric<double>(), {{0, 0, 1e-3}, Eigen::Vector3d::Zero()}, margin);
+      problem.solve_gauss_newton(Metric<double>(), {{0, 0, 1e-3}, Eigen::Vector3d::Zero()}, margin);
       BOOST_TEST_CONTEXT("gap " << gap << (is_spare ? ", spare" : "")) {
         BOOST_TEST(problem.is_relaxed());
         BOOST_TEST(problem.gap_after(0) >= clearance.required(gap) - tolerance);
@@ -110,14 +110,14 @@ BOOST_AUTO_TEST_CASE(with_the_forces_of_the_last_step_steps_converge_quadratical
     BOOST_TEST_REQUIRE(problem.add(row, {0.0}));
     const Twist<double> graphic_from_haptic{point - hand, Eigen::Vector3d::Zero()};
     if (steps == 0) {
-      BOOST_TEST((problem.bend_again(metric, graphic_from_haptic, 0.0) == Problem::Guess::none));  // there is no last step
-      problem.project(metric, graphic_from_haptic, 0.0);
-      problem.bend(metric, graphic_from_haptic);
+      BOOST_TEST((problem.solve_newton_by_guess(metric, graphic_from_haptic, 0.0) == Problem::Guess::none));  // there is no last step
+      problem.solve_gauss_newton(metric, graphic_from_haptic, 0.0);
+      problem.solve_newton(metric, graphic_from_haptic);
     } else {
-      const Problem::Guess guess = problem.bend_again(metric, graphic_from_haptic, 0.0);
+      const Problem::Guess guess = problem.solve_newton_by_guess(metric, graphic_from_haptic, 0.0);
       BOOST_TEST_REQUIRE(
           (guess == (steps == 1 ? Problem::Guess::close : Problem::Guess::right)));  // the first step is long, and the force becomes another
-      if (guess == Problem::Guess::close) problem.bend(metric, graphic_from_haptic);
+      if (guess == Problem::Guess::close) problem.solve_newton(metric, graphic_from_haptic);
       BOOST_TEST(!problem.is_free());
     }
     point += problem.solution().step.head<3>();
@@ -137,43 +137,43 @@ BOOST_AUTO_TEST_CASE(a_guess_of_the_forces_says_what_it_is_worth) {
   wall.normal = Eigen::Vector3d::UnitX();
   Corner problem;
   const auto solve = [&](const Twist<double>& e) {
-    problem.project(metric, e, 0.0);
-    problem.bend(metric, e);
+    problem.solve_gauss_newton(metric, e, 0.0);
+    problem.solve_newton(metric, e);
   };
   problem.add(floor, {0.0});
   problem.add(wall, {0.0});
   solve(into(-1e-3, 1e-3));
-  BOOST_TEST((problem.bend_again(metric, into(-1e-3, 1.1e-3), 0.0) == Guess::right));
-  BOOST_TEST((problem.bend_again(metric, into(-1e-3, 2e-3), 0.0) == Guess::close));  // the force is another
-  BOOST_TEST((problem.bend_again(metric, into(1e-3, 1e-3), 0.0) == Guess::close));  // the wall holds it too
-  problem.bend(metric, into(1e-3, 1e-3));
+  BOOST_TEST((problem.solve_newton_by_guess(metric, into(-1e-3, 1.1e-3), 0.0) == Guess::right));
+  BOOST_TEST((problem.solve_newton_by_guess(metric, into(-1e-3, 2e-3), 0.0) == Guess::close));  // the force is another
+  BOOST_TEST((problem.solve_newton_by_guess(metric, into(1e-3, 1e-3), 0.0) == Guess::close));  // the wall holds it too
+  problem.solve_newton(metric, into(1e-3, 1e-3));
   BOOST_TEST(problem.solution().step.isZero(1e-18));
-  BOOST_TEST((problem.bend_again(metric, into(1e-3, -1e-3), 0.0) == Guess::close));  // the floor does not
-  BOOST_TEST((problem.bend_again(metric, into(-1e-3, -1e-3), 0.0) == Guess::wrong));  // nothing does
+  BOOST_TEST((problem.solve_newton_by_guess(metric, into(1e-3, -1e-3), 0.0) == Guess::close));  // the floor does not
+  BOOST_TEST((problem.solve_newton_by_guess(metric, into(-1e-3, -1e-3), 0.0) == Guess::wrong));  // nothing does
   problem.restore(metric, 1e-6);  // whose forces are of another problem
-  BOOST_TEST((problem.bend_again(metric, into(1e-3, 1e-3), 0.0) == Guess::right));
+  BOOST_TEST((problem.solve_newton_by_guess(metric, into(1e-3, 1e-3), 0.0) == Guess::right));
 
   problem.clear();
   problem.add(floor, {0.0});
-  BOOST_TEST((problem.bend_again(metric, into(-1e-3, 1e-3), 0.0) == Guess::none));  // the wall is gone
+  BOOST_TEST((problem.solve_newton_by_guess(metric, into(-1e-3, 1e-3), 0.0) == Guess::none));  // the wall is gone
   solve(into(-1e-3, 1e-3));
   problem.clear();
   problem.add(wall, {0.0});
   problem.add(floor, {0.0});
-  BOOST_TEST((problem.bend_again(metric, into(-1e-3, 1e-3), 0.0) == Guess::right));
+  BOOST_TEST((problem.solve_newton_by_guess(metric, into(-1e-3, 1e-3), 0.0) == Guess::right));
   ContactRow<double> ceiling;  // with which none has the margin
   ceiling.normal = -floor.normal;
   problem.add(ceiling, {0.0});
-  BOOST_TEST((problem.bend_again(metric, into(-1e-3, 1e-3), 1e-6) == Guess::wrong));
+  BOOST_TEST((problem.solve_newton_by_guess(metric, into(-1e-3, 1e-3), 1e-6) == Guess::wrong));
   problem.clear();
   problem.add(floor, {0.0});
   solve(into(-1e-3, 1e-3));
-  problem.project(metric, into(-1e-3, -1e-3), 0.0);
+  problem.solve_gauss_newton(metric, into(-1e-3, -1e-3), 0.0);
   BOOST_TEST(problem.is_free());
-  BOOST_TEST((problem.bend_again(metric, into(-1e-3, 1e-3), 0.0) == Guess::none));  // it was free
+  BOOST_TEST((problem.solve_newton_by_guess(metric, into(-1e-3, 1e-3), 0.0) == Guess::none));  // it was free
   solve(into(-1e-3, 1e-3));
   problem.forget();
-  BOOST_TEST((problem.bend_again(metric, into(-1e-3, 1e-3), 0.0) == Guess::none));
+  BOOST_TEST((problem.solve_newton_by_guess(metric, into(-1e-3, 1e-3), 0.0) == Guess::none));
 }
 
 BOOST_AUTO_TEST_CASE(without_clearance_spare_rows_leave_the_tool_to_others_that_ask_the_same) {
@@ -191,7 +191,7 @@ BOOST_AUTO_TEST_CASE(without_clearance_spare_rows_leave_the_tool_to_others_that_
       BOOST_TEST_REQUIRE(problem.add(row, {0.0, is_spare}));
       spare_count += is_spare;
     }
-    const Vector6<double> step = problem.project(metric, graphic_from_haptic, 1e-6);
+    const Vector6<double> step = problem.solve_gauss_newton(metric, graphic_from_haptic, 1e-6);
     BOOST_TEST(std::abs(step[2]) < 3e-12, "spares " << spares << ": sinks by " << step[2]);
     BOOST_TEST(step.segment<2>(3).norm() < 1e-9, "spares " << spares << ": tilts");
     if (spare_count > 1) continue;  // the others might let it tilt

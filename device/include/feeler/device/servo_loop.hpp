@@ -95,7 +95,7 @@ class ServoLoop {
   bool render_to_device(const ServoTick& tick);
   void end_force() noexcept;
   void watch(double latest_tick);
-  bool was_let_go() noexcept;
+  bool note_let_go() noexcept;
 
   ServoSettings settings_;
   Callback callback_;

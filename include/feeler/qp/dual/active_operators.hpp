@@ -5,6 +5,7 @@
 #include <array>
 #include <cstddef>
 
+#include "feeler/core/index.hpp"
 #include "feeler/core/lanes.hpp"
 #include "feeler/core/scalar.hpp"
 #include "feeler/core/single_lanes.hpp"
@@ -30,7 +31,7 @@ class ActiveOperators {
   /// To 16 bytes at least: of plain loops over columns g++ 12 makes loads that need as much, even where it can see that they have less.
   struct alignas((std::max)(alignof(Group), std::size_t(16))) Column : std::array<Scalar, lanes <= 2 ? 6 : 8> {};
 
-  /// The images of a vector: `step` is P·v, and `share` is N*·v, a number a slot; behind the slots in use it
+  /// The images of a vector: `step` is P·v, and `share` is N*·v, one number for each slot; behind the slots in use it
   /// is some number.
   struct Image {
     Column step{};
@@ -43,7 +44,7 @@ class ActiveOperators {
     is_behind_ = false;
     is_diagonal_ = inverse.is_diagonal();
     if (is_diagonal_) {
-      copy_six(inverse.diagonal().data(), diagonal_.data());
+      copy_six(inverse.inverse_pivots().data(), diagonal_.data());
     } else {
 #pragma GCC unroll 6
       for (std::size_t j = 0; j < 6; ++j) copy_six(inverse.matrix()[j].data(), projector_[j].data());
@@ -161,8 +162,6 @@ class ActiveOperators {
  private:
   using SixGroups = std::array<Group, 6>;
   using Columns = std::array<Column, 6>;
-
-  static std::size_t index(int i) noexcept { return std::size_t(i); }
 
   /// Wᵀ·v
   static Six<Scalar> multiply_transposed(const SixBySix<Scalar>& w, const Six<Scalar>& v) noexcept {

@@ -16,7 +16,7 @@
 
 namespace feeler::detail {
 
-/// Of a row's weight with nothing active, as which it is weighed where active rows leave less of it free to move.
+/// The least weight of a row, as a share of its weight with nothing active: active rows may leave less of it free to move.
 ///
 /// Rows around the rim of a peg all but depend on their active neighbour: with a smaller share each takes its neighbour's place, one by one; with a
 /// larger one pricing forgets how far a step leads.

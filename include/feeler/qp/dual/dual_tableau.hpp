@@ -2,10 +2,10 @@
 #pragma once
 
 #include <algorithm>
-#include <array>
 #include <cstddef>
 #include <limits>
 
+#include "feeler/core/index.hpp"
 #include "feeler/core/lane_reductions.hpp"
 #include "feeler/core/lanes.hpp"
 #include "feeler/core/scalar.hpp"
@@ -22,10 +22,10 @@ namespace feeler::detail {
 /// The dual active-set method of Goldfarb and Idnani on the table A·H⁻¹·Aᵀ of some rows A.
 ///
 /// An entry of the table is what the force of one row adds to another. Where a row becomes active it is swept: one outer product takes what its
-/// force does from all others, and then the table tells how the forces of the active rows follow that of the next one, and how much every other
-/// row is free to move. A step costs a column of the table and a division, where operators in six dimensions are a chain of sums. Source:
-/// J. H. Goodnight, "A tutorial on the SWEEP operator", The American Statistician 33 (1979); forces of active rows are kept in a unit in which
-/// the row's own column stays as it is.
+/// force does from all others. Then the table tells how the forces of the active rows follow that of the next one, and how much every other row is
+/// free to move. A step costs a column of the table and a division, where operators in six dimensions are a chain of sums. Forces of active rows are
+/// kept in a unit in which the row's own column stays as it is.
+/// Source: J. H. Goodnight, "A tutorial on the SWEEP operator", The American Statistician 33 (1979).
 ///
 /// Rows are chosen as by `RowScan`, and every lane computed alike, however many there are. Where a row all but depends on active ones, by an angle
 /// below 3e-4 rad, the table has too few digits of it left, and its column is computed afresh.
@@ -49,7 +49,7 @@ class DualTableau {
     steps_ = 0;
     refused_ = none;
     int entering = start(problem, bounds, hessian, gradient, tolerance);
-    if (entering >= 0) table_.start(rows_, count_);
+    if (entering >= 0) table_.start(count_);
     while (entering >= 0) entering = add(entering, tolerance);
     return entering == none;
   }
@@ -83,8 +83,6 @@ class DualTableau {
   static Scalar independent() noexcept { return dependent_angle<Scalar>() * dependent_angle<Scalar>(); }
   /// Share of which the table has too few digits.
   static Scalar rough() noexcept { return (std::max)(Scalar(1e-7), Scalar(1024 * std::numeric_limits<Scalar>::epsilon())); }
-
-  static std::size_t index(int i) noexcept { return std::size_t(i); }
 
   /// Violations and weights where nothing is active; returns the row to add, or −1.
   int start(const QpProblem<Scalar>& problem, const Scalar* bounds, const InverseHessian<Scalar>& hessian, const Six<Scalar>& gradient,
@@ -121,13 +119,13 @@ class DualTableau {
   /// Makes a row active, whatever leaves for it; returns the row to add next, or `none`, or `given_up`.
   [[gnu::always_inline]] inline int add(int entering, Scalar tolerance) noexcept {
     const std::size_t row = index(entering);
-    const Scalar whole = Scalar(1 / least_share) * least_weight_[row];
+    const Scalar unconstrained = Scalar(1 / least_share) * least_weight_[row];
     Values* column = &table_.column(rows_, entering);
     for (Scalar multiplier(0); !table_.is_full();) {
       ++steps_;
       const bool is_free = !active_.rows.full();
-      if (is_free && !(weight_[row] > rough() * whole)) measure_again(entering, whole, *column);
-      const bool has_step = is_free && weight_[row] > independent() * whole;
+      if (is_free && !(weight_[row] > rough() * unconstrained)) measure_again(entering, unconstrained, *column);
+      const bool has_step = is_free && weight_[row] > independent() * unconstrained;
       const Scalar inverse = Scalar(1) / weight_[row];
       Scalar step = has_step ? product(violation_[row], inverse) : std::numeric_limits<Scalar>::infinity();
       const int leaving = has_step ? first_to_leave(*column, step) : first_of_sum(entering, *column, step);
@@ -148,7 +146,7 @@ class DualTableau {
         if (!is_behind_) sweep_last();
         return next;
       }
-      release(leaving, *column, step);
+      drop(leaving, *column, step);
       column = &table_.follow(entering);
     }
     return given_up;
@@ -158,14 +156,14 @@ class DualTableau {
   ///
   /// The table tells how far it is their sum. Where that leaves more of it than rounding would, it is taken from the row itself twice (W. Kahan, in
   /// B. Parlett, "The Symmetric Eigenvalue Problem", section 6-9), so that the rest has as many digits as a scalar.
-  /// @param whole  weight of the row with nothing active
+  /// @param unconstrained  its weight with nothing active
   [[gnu::noinline]]
-  void measure_again(int entering, const Scalar& whole, Values& column) noexcept {
+  void measure_again(int entering, const Scalar& unconstrained, Values& column) noexcept {
     const int count = active_.rows.size();
     Six<Scalar> rest = rows_.row(entering), share{};
     for (int i = 0; i < count; ++i) share[index(i)] = share_of(i, column);
     take(share, rest);
-    if (dot(rows_.scaled(rest), rest) > product(independent(), whole)) {
+    if (dot(rows_.scaled(rest), rest) > product(independent(), unconstrained)) {
       Six<Scalar> along{};
       for (int i = 0; i < count; ++i) along[index(i)] = dot(rows_.scaled(rows_.row(active_.rows[i])), rest);
       const Six<Scalar> change = change_for(along);
@@ -178,7 +176,7 @@ class DualTableau {
     for (int i = 0; i < count; ++i) column[index(active_.rows[i])] = share[index(i)] / units_[index(i)];
     column[index(entering)] = dot(scaled, rest);
     weight_[index(entering)] = column[index(entering)];
-    table_.replace(entering);
+    table_.note_measured();
   }
   /// Takes shares of the active rows from one.
   void take(const Six<Scalar>& shares, Six<Scalar>& rest) const noexcept {
@@ -238,11 +236,11 @@ class DualTableau {
     for (int i = 0; i < active_.rows.size(); ++i) shares_[index(i)] = (std::min)(Scalar(0), share_of(i, column));
   }
   /// Brings the table up to the row that became active last.
-  void sweep_last() noexcept { table_.enter(active_.rows.back(), units_[index(active_.rows.size() - 1)]); }
+  void sweep_last() noexcept { table_.add(active_.rows.back()); }
 
   /// Ends the force of an active row after a step that another one ends.
   [[gnu::noinline]]
-  void release(int leaving, const Values& column, Scalar length) noexcept {
+  void drop(int leaving, const Values& column, Scalar length) noexcept {
     const int row = active_.rows[leaving];
     Values& own = table_.active_column(rows_, row);
     const Scalar pivot = own[index(row)], inverse = Scalar(1) / pivot, scale = Scalar(-1) / product(units_[index(leaving)], pivot);
@@ -253,7 +251,7 @@ class DualTableau {
       weight_.set(k, Group(weight_.at(k) - product(shares, c)));
       table_.set_shares(k, shares);
     }
-    table_.leave(row, inverse, scale);
+    table_.drop(row, scale);
     violation_[index(row)] = Scalar(0);
     weight_[index(row)] = -product(product(pivot, scale), scale);
     active_.rows.swap_remove(leaving);

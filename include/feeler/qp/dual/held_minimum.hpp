@@ -2,7 +2,6 @@
 #pragma once
 
 #include <algorithm>
-#include <array>
 #include <cstddef>
 #include <limits>
 
@@ -49,7 +48,7 @@ class HeldMinimum {
       if (!rows.are_not_negative(multipliers)) return false;
       place(rows, multipliers, hessian, gradient);
       constexpr int most_refinements = 2;
-      for (int i = 0; i < most_refinements && beside_ > rough() * largest_of(x_); ++i)
+      for (int i = 0; i < most_refinements && beside_ > rough() * norm_inf(x_); ++i)
         shift(rows, rows.only_rows(schur.solve(rows.values(lacking_))), hessian);
       return true;
     });
@@ -114,7 +113,7 @@ class HeldMinimum {
 #pragma GCC unroll 6
     for (std::size_t j = 0; j < 6; ++j) rest[j] = force_[j] - gradient[j];
     x_ = hessian.solve(rest);
-    look(rows);
+    measure(rows);
   }
   /// Moves x by a change of the multipliers.
   template <class Rows>
@@ -128,10 +127,10 @@ class HeldMinimum {
     const Six<Scalar> step = hessian.solve(rows.sum(change));
 #pragma GCC unroll 6
     for (std::size_t j = 0; j < 6; ++j) x_[j] += step[j];
-    look(rows);
+    measure(rows);
   }
   template <class Rows>
-  [[gnu::always_inline]] inline void look(const Rows& rows) noexcept {
+  [[gnu::always_inline]] inline void measure(const Rows& rows) noexcept {
     using Group = typename Rows::Group;
     auto lacking = rows.lacking(x_);
     if constexpr (Rows::capacity == 1) lacking = rows.only_rows(lacking);  // what fills up more is one of them

@@ -24,7 +24,7 @@ class HeldRows {
   using Scalar = ScalarType;
   static constexpr int lanes = lanes_, capacity = capacity_, groups = capacity / lanes;
   using Group = Lanes<Scalar, lanes>;
-  /// A number a row.
+  /// One number for each row.
   using Values = std::array<Group, std::size_t(groups)>;
 
   /// @param rows  of the problem, that exist
@@ -65,7 +65,7 @@ class HeldRows {
     return values;
   }
 
-  /// Whether no value is negative, or no number.
+  /// Whether no value is negative or NaN.
   [[gnu::always_inline]] static bool are_not_negative(const Values& values) noexcept {
     auto are = Group{} <= Group{};
     for (const Group& group : values) are &= Group{} <= group;

@@ -37,7 +37,7 @@ class InverseHessian {
   }
 
   bool is_diagonal() const noexcept { return is_diagonal_; }
-  /// D⁻¹
+  /// D⁻¹; where H is diagonal, H⁻¹.
   const Six<Scalar>& inverse_pivots() const noexcept { return d_inverse_; }
   /// L⁻¹·v
   template <class Group>
@@ -65,8 +65,7 @@ class InverseHessian {
     }
     return v;
   }
-  /// H⁻¹ where it is diagonal, and where it is not.
-  const Six<Scalar>& diagonal() const noexcept { return d_inverse_; }
+  /// H⁻¹ where it is not diagonal.
   const SixBySix<Scalar>& matrix() const noexcept { return inverse_; }
   /// H⁻¹·v
   Six<Scalar> inverse_times(const Six<Scalar>& v) const noexcept { return is_diagonal_ ? multiply(d_inverse_, v) : multiply(inverse_, v); }

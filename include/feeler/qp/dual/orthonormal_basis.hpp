@@ -5,7 +5,6 @@
 #include <cstddef>
 
 #include "feeler/core/scalar.hpp"
-#include "feeler/core/unfused_product.hpp"
 #include "feeler/qp/dual/six.hpp"
 
 namespace feeler::detail {

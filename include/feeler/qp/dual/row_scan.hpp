@@ -7,6 +7,7 @@
 #include <limits>
 #include <type_traits>
 
+#include "feeler/core/index.hpp"
 #include "feeler/core/lane_reductions.hpp"
 #include "feeler/core/lanes.hpp"
 #include "feeler/core/scalar.hpp"
@@ -41,19 +42,19 @@ class RowScan {
   /// Computes violations and weights where nothing is active, and selects as `select` does.
   /// @param bounds  of the rows, here and below
   int start(const Problem& problem, const Scalar* bounds, const InverseHessian<Scalar>& inverse, const Six<Scalar>& x, Scalar tolerance) noexcept {
-    return inverse.is_diagonal() ? start(problem, bounds, DiagonalForm(inverse.diagonal()), x, tolerance)
+    return inverse.is_diagonal() ? start(problem, bounds, DiagonalForm(inverse.inverse_pivots()), x, tolerance)
                                  : start(problem, bounds, FullForm(inverse.matrix()), x, tolerance);
   }
   /// Computes weights where some rows are active.
   void weigh(const Problem& problem, const InverseHessian<Scalar>& inverse, const SixBySix<Scalar>& projector) noexcept {
     if (inverse.is_diagonal()) {
-      weigh(problem, DiagonalForm(inverse.diagonal()), FullForm(projector));
+      weigh(problem, DiagonalForm(inverse.inverse_pivots()), FullForm(projector));
     } else {
       weigh(problem, FullForm(inverse.matrix()), FullForm(projector));
     }
   }
 
-  /// Whether a row is violated at x by more than `tolerance`, or by no number; nothing of it is kept.
+  /// Whether a row is violated at x by more than `tolerance`, or by NaN; nothing of it is kept.
   static bool is_violated(const Problem& problem, const Scalar* bounds, const Six<Scalar>& x, Scalar tolerance) noexcept {
     return is_above(problem, tolerance, Violation(bounds, x));
   }
@@ -73,8 +74,8 @@ class RowScan {
   void set_active(int k) noexcept { violation_[index(k)] = -std::numeric_limits<Coarse>::infinity(); }
   void set_violation(int k, Scalar violation) noexcept { violation_[index(k)] = Coarse(violation); }
 
-  /// About aₖᵀH⁻¹aₖ; too much, or no number, where that is beyond what it is kept in.
-  Scalar whole_weight(int k) const noexcept { return Scalar(least_weight_[index(k)]) * Scalar(1 / least_share); }
+  /// About aₖᵀH⁻¹aₖ; too much, or NaN, where single precision does not hold it.
+  Scalar rough_unconstrained_weight(int k) const noexcept { return Scalar(least_weight_[index(k)]) * Scalar(1 / least_share); }
 
   /// The row to add; −1 if none is violated by more than `tolerance`, and also where no score is a number.
   int select(const Problem& problem, Scalar tolerance) const noexcept {
@@ -197,7 +198,6 @@ class RowScan {
     Group unit_;
   };
 
-  static std::size_t index(int i) noexcept { return std::size_t(i); }
   template <class Spread, class V>
   static std::array<Spread, 6> spread_all(const V& v) noexcept {
     using Number = std::conditional_t<std::is_same_v<Spread, Group>, Scalar, Coarse>;
@@ -263,12 +263,12 @@ class RowScan {
   }
 
   template <class Form>
-  void weigh(const Problem& problem, const Form& whole, const FullForm& free) noexcept {
+  void weigh(const Problem& problem, const Form& unconstrained, const FullForm& free) noexcept {
     const CoarseGroup share = spread<CoarseGroup>(Coarse(least_share)), least = spread<CoarseGroup>(smallest_weight<Coarse>());
     for (int k = 0; k < problem.row_count; k += coarse_lanes) {
       const SixCoarse a = round_rows(problem, k);
       store(&weight_[index(k)], free(a));
-      store(&least_weight_[index(k)], CoarseGroup(product(share, whole(a)) + least));
+      store(&least_weight_[index(k)], CoarseGroup(product(share, unconstrained(a)) + least));
     }
   }
 

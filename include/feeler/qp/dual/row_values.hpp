@@ -9,7 +9,7 @@
 
 namespace feeler::detail {
 
-/// A number a row, read and written in groups.
+/// One number for each row, read and written in groups.
 template <RealScalar Scalar, int lanes, int capacity>
 struct alignas(64) RowValues : std::array<Scalar, std::size_t(capacity)> {
   using Group = Lanes<Scalar, lanes>;

@@ -17,9 +17,9 @@ namespace feeler::detail {
 
 /// The Schur complement S = A·H⁻¹·Aᵀ of some rows A in the system of equations of a held minimum, and S⁻¹ as the product of its sweeps.
 ///
-/// Two rows at a time are swept out of those behind them and out of the right side, which then is the solution: there is no way back as after a
-/// triangular factor, and two rows cost the chain one division, a product and a difference, in registers. Without pivoting, as S is positive
-/// definite, and from its upper triangle, as it is symmetric. Every lane is computed alike, however many there are.
+/// Two rows at a time are swept out of those behind them and out of the right side, which then is the solution. There is no back substitution as
+/// after a triangular factor, and the chain of what waits for each other has one division, a product and a difference for two rows. No pivoting, as
+/// S is positive definite; only its upper triangle, as it is symmetric. Every lane is computed alike, however many there are.
 /// Sources: J. Nocedal, S. J. Wright, "Numerical Optimization" (2006), section 16.2, the Schur-complement method; G. H. Golub, C. F. Van Loan,
 /// "Matrix Computations" (2013), section 3.2, for Gauss transformations, and 4.4, for pivots of two rows.
 /// @tparam Rows  `HeldRows`
@@ -63,22 +63,22 @@ class SchurComplement {
 
   /// Sweeps S, and turns v into S⁻¹·v; false, and nothing else is valid, where a row all but depends on those before it.
   [[gnu::always_inline]] bool sweep_and_solve(Values& v) noexcept {
-    Values whole{}, pivots{};
+    Values unconstrained{}, pivots{};
     for_every_row([&]<std::size_t k>(Number<k>) {
       if (!has_row(k)) return false;
-      replace<k>(whole, sweeps_[k][k / width]);
+      replace<k>(unconstrained, sweeps_[k][k / width]);
       return true;
     });
     for_every_row<2>([&]<std::size_t k>(Number<k>) {
       if (int(k) >= count_) return false;
-      sweep<k>(whole, pivots);
+      sweep<k>(unconstrained, pivots);
       take_out<k>(v);
       return true;
     });
     auto is_independent = Group{} <= Group{};
 #pragma GCC unroll 8
     for (std::size_t g = 0; g < groups; ++g) {
-      const Group least = product(spread<Group>(Scalar(independent)), whole[g]);
+      const Group least = product(spread<Group>(Scalar(independent)), unconstrained[g]);
       const auto is_row = first_lanes<Scalar, lanes>(count_ - int(g) * lanes);
       is_independent &= (is_row ? least : spread<Group>(Scalar(-1))) < pivots[g];
     }
@@ -119,9 +119,9 @@ class SchurComplement {
 
   /// Sweeps rows k and k + 1, or the last row without another.
   template <std::size_t k>
-  [[gnu::always_inline]] void sweep(Values& whole, Values& pivots) noexcept {
+  [[gnu::always_inline]] void sweep(Values& unconstrained, Values& pivots) noexcept {
     if constexpr (k + 1 < most) {
-      if (int(k) + 1 < count_) return sweep_pair<k>(whole, pivots);
+      if (int(k) + 1 < count_) return sweep_pair<k>(unconstrained, pivots);
       sweeps_[k + 1] = Values{};
     }
     inverses_[k / 2] = spread<Group>(Scalar(1)) / number_of<k>(sweeps_[k]);
@@ -131,14 +131,14 @@ class SchurComplement {
   /// By the inverse of their block, ((c, −b), (−b, a)) over its determinant. What it makes of the rows is at hand when the division ends, so that
   /// little else stands between one pair and the next.
   template <std::size_t k>
-  [[gnu::always_inline]] void sweep_pair(Values& whole, Values& pivots) noexcept {
+  [[gnu::always_inline]] void sweep_pair(Values& unconstrained, Values& pivots) noexcept {
     const Values first = sweeps_[k], second = sweeps_[k + 1];
     const Group a = number_of<k>(first), b = number_of<k + 1>(first), c = number_of<k + 1>(second);
     const Group determinant = product(a, c) - product(b, b);
     inverses_[k / 2] = spread<Group>(Scalar(1)) / determinant;
     replace<k>(pivots, a);
     replace<k + 1>(pivots, determinant);
-    replace<k + 1>(whole, product(whole[(k + 1) / width], a));
+    replace<k + 1>(unconstrained, product(unconstrained[(k + 1) / width], a));
 #pragma GCC unroll 8
     for (std::size_t g = 0; g < groups; ++g) {
       sweeps_[k][g] = product(c, first[g]) - product(b, second[g]);

@@ -78,24 +78,24 @@ inline Scalar magnitude(const Scalar& value) noexcept {
 }
 /// The largest |vⱼ| of the first six.
 template <class Scalar, std::size_t size>
-[[gnu::always_inline]] inline Scalar largest_of(const std::array<Scalar, size>& v) noexcept {
+[[gnu::always_inline]] inline Scalar norm_inf(const std::array<Scalar, size>& v) noexcept {
   const auto larger = [&v](std::size_t j) { return (std::max)(magnitude(v[j]), magnitude(v[j + 1])); };
   return (std::max)((std::max)(larger(0), larger(2)), larger(4));
 }
 /// Σ |vⱼ|
 template <class Scalar>
-[[gnu::always_inline]] inline Scalar size_of(const Six<Scalar>& v) noexcept {
+[[gnu::always_inline]] inline Scalar norm1(const Six<Scalar>& v) noexcept {
   return ((magnitude(v[0]) + magnitude(v[1])) + (magnitude(v[2]) + magnitude(v[3]))) + (magnitude(v[4]) + magnitude(v[5]));
 }
 /// Rounding of a row's value at x, for a row of size one.
 template <class Scalar>
 [[gnu::always_inline]] inline Scalar rounding_at(const Six<Scalar>& x) noexcept {
-  return 8 * std::numeric_limits<Scalar>::epsilon() * largest_of(x);
+  return 8 * std::numeric_limits<Scalar>::epsilon() * norm_inf(x);
 }
 /// Rounding of a·x itself.
 template <class Scalar>
 inline Scalar rounding_of_dot(const Six<Scalar>& a, const Six<Scalar>& x) noexcept {
-  return 8 * std::numeric_limits<Scalar>::epsilon() * size_of(multiply(a, x));
+  return 8 * std::numeric_limits<Scalar>::epsilon() * norm1(multiply(a, x));
 }
 
 }  // namespace feeler::detail

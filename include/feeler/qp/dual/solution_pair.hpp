@@ -6,12 +6,14 @@
 #include <cstddef>
 
 #include "feeler/core/fixed_vector.hpp"
+#include "feeler/core/index.hpp"
 #include "feeler/core/lane_reductions.hpp"
 #include "feeler/core/lanes.hpp"
 #include "feeler/core/scalar.hpp"
 #include "feeler/core/unfused_product.hpp"
 #include "feeler/qp/dual/active_operators.hpp"
 #include "feeler/qp/dual/inverse_hessian.hpp"
+#include "feeler/qp/dual/kkt_check.hpp"
 #include "feeler/qp/dual/six.hpp"
 
 namespace feeler::detail {
@@ -42,7 +44,7 @@ class SolutionPair {
   const Six& x() const noexcept { return x_; }
   /// In the order of the operators' slots.
   const Rows& rows() const noexcept { return rows_; }
-  /// A number an active row; behind them is some number.
+  /// One number for each active row; behind them is some number.
   const Multipliers& multipliers() const noexcept { return multipliers_; }
   Operators& operators() noexcept { return operators_; }
   const Operators& operators() const noexcept { return operators_; }
@@ -93,6 +95,23 @@ class SolutionPair {
     return leaving;
   }
 
+  /// The shares of the active rows in row a, none of them positive, and the rest; whether that is what rounding leaves.
+  /// @param a       last applied to
+  /// @param shares  0
+  bool expand(const Six& a, Six& shares, Six& rest) noexcept {
+    for (int round = 0; round < 2; ++round) {  // what rounding left of it is in the span as well
+      if (round > 0) operators_.apply(rest);
+      rest = a;
+      for (int i = 0; i < rows_.size(); ++i) {
+        Scalar& share = shares[index(i)];
+        share = (std::min)(Scalar(share + operators_.image().share[index(i)]), Scalar(0));
+        subtract(operators_.normal(i), share, rest);
+      }
+      if (!(norm1(rest) > allowed_rest(a))) return true;
+    }
+    return false;
+  }
+
   /// Applies the operators to H·dual and returns dual·H·dual.
   Scalar curve(const Six& dual) noexcept {
     const Six curved = inverse_->hessian_times(dual);
@@ -102,7 +121,7 @@ class SolutionPair {
 
   /// @param a      the row, last applied to
   /// @param slope  `slope_along(a)`
-  void activate(int row, const Six& a, const Scalar& multiplier, const Scalar& slope) noexcept {
+  void add(int row, const Six& a, const Scalar& multiplier, const Scalar& slope) noexcept {
     multipliers_[index(rows_.size())] = multiplier;
     rows_.push_back(row);
     operators_.add(a, slope);
@@ -111,7 +130,7 @@ class SolutionPair {
 
   /// @param dual       of the slot
   /// @param curvature  `curve(dual)`
-  void release(int slot, const Six& dual, const Scalar& curvature) noexcept {
+  void drop(int slot, const Six& dual, const Scalar& curvature) noexcept {
     operators_.drop(slot, *inverse_, dual, curvature);
     rows_.swap_remove(slot);
     multipliers_[index(slot)] = multipliers_[index(rows_.size())];
@@ -130,7 +149,7 @@ class SolutionPair {
 #pragma GCC unroll 6
       for (std::size_t j = 0; j < 6; ++j) x_[j] += product(step, dual[j]);
       move_multipliers(-step);
-      release(slot, dual, curvature);
+      drop(slot, dual, curvature);
     }
   }
 
@@ -150,8 +169,6 @@ class SolutionPair {
   }
 
  private:
-  static std::size_t index(int i) noexcept { return std::size_t(i); }
-
   const InverseHessian<Scalar>* inverse_ = nullptr;
   Operators operators_;
   Six x_{};

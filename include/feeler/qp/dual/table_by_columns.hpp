@@ -28,7 +28,7 @@ class TableByColumns {
   using Rows = LowerRows<Scalar, lanes, capacity>;
   using Group = Lanes<Scalar, lanes>;
 
-  void start(const Rows&, int count) noexcept {
+  void start(int count) noexcept {
     count_ = count;
     sweep_count_ = 0;
     measured_ = 0;
@@ -53,11 +53,11 @@ class TableByColumns {
     return column;
   }
   /// It was written anew.
-  void replace(int) noexcept { measured_ |= 1u << sweep_count_; }
+  void note_measured() noexcept { measured_ |= 1u << sweep_count_; }
   /// The shares of a group in the column that enters or leaves next: its numbers, divided by the row's own.
   [[gnu::always_inline]] void set_shares(int k, const Group& shares) noexcept { next().shares.set(k, shares); }
   /// Exchanges the force of the row and what the tool moves off it.
-  void enter(int row, const Scalar&) noexcept {
+  void add(int row) noexcept {
     Sweep& sweep = next();
     sweep.pivot = sweep.entries[std::size_t(row)];
     sweep.scale = Scalar(1);
@@ -68,7 +68,7 @@ class TableByColumns {
   Values& active_column(const Rows& rows, int row) noexcept { return make(rows, row, leaving_); }
   /// Exchanges back its force and what the tool moves off it; the column of a row that may become active stays.
   /// @param scale  of the row's own column afterwards
-  void leave(int row, const Scalar&, const Scalar& scale) noexcept {
+  void drop(int row, const Scalar& scale) noexcept {
     Sweep& sweep = next();
     Values& entering = sweeps_[std::size_t(sweep_count_ + 1)].entries;
     for (int k = 0; k < count_; k += lanes) {

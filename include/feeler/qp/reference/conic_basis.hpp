@@ -4,6 +4,7 @@
 #include <array>
 #include <limits>
 
+#include "feeler/core/index.hpp"
 #include "feeler/core/scalar.hpp"
 #include "feeler/qp/reference/gram_schmidt.hpp"
 
@@ -18,49 +19,49 @@ template <RealScalar Scalar>
 class ConicBasis {
  public:
   int size() const noexcept { return size_; }
-  int index(int i) const noexcept { return rows_[at(i)].index; }
-  const Scalar& weight(int i) const noexcept { return rows_[at(i)].weight; }
+  /// The number that a row kept was added with.
+  int number(int i) const noexcept { return rows_[index(i)].number; }
+  const Scalar& weight(int i) const noexcept { return rows_[index(i)].weight; }
 
   /// @param weight  positive
-  void add(int index, const Vector6<Scalar>& row, Scalar weight) noexcept {
+  void add(int number, const Vector6<Scalar>& row, Scalar weight) noexcept {
     const auto e = basis_.expand(row, row);
     const Scalar rounding = 64 * std::numeric_limits<Scalar>::epsilon();
     if (size_ < 6 && e.free_squared > rounding * rounding * e.squared) {
-      rows_[at(size_++)] = {index, weight, row};
+      rows_[index(size_++)] = {number, weight, row};
       basis_.add(e);
       return;
     }
     Scalar given = weight;  // to the rows kept
     int leaving = -1;
     for (int i = 0; i < size_; ++i) {
-      const Scalar& share = e.coefficients[at(i)];
-      if (share < Scalar(0) && rows_[at(i)].weight < -share * given) {
-        given = rows_[at(i)].weight / -share;
+      const Scalar& share = e.coefficients[index(i)];
+      if (share < Scalar(0) && rows_[index(i)].weight < -share * given) {
+        given = rows_[index(i)].weight / -share;
         leaving = i;
       }
     }
-    for (int i = 0; i < size_; ++i) rows_[at(i)].weight += given * e.coefficients[at(i)];
+    for (int i = 0; i < size_; ++i) rows_[index(i)].weight += given * e.coefficients[index(i)];
     if (leaving < 0) return;
-    rows_[at(leaving)] = {index, weight - given, row};
+    rows_[index(leaving)] = {number, weight - given, row};
     drop_empty();
   }
 
  private:
   struct Row {
-    int index = -1;
+    int number = -1;
     Scalar weight = Scalar(0);
     Vector6<Scalar> row;
   };
-  static std::size_t at(int i) noexcept { return std::size_t(i); }
 
   /// Drops what has no weight left, and orthogonalises anew.
   void drop_empty() noexcept {
     int kept = 0;
     basis_.clear();
     for (int i = 0; i < size_; ++i) {
-      if (!(rows_[at(i)].weight > Scalar(0))) continue;
-      rows_[at(kept)] = rows_[at(i)];
-      basis_.add(basis_.expand(rows_[at(kept)].row, rows_[at(kept)].row));
+      if (!(rows_[index(i)].weight > Scalar(0))) continue;
+      rows_[index(kept)] = rows_[index(i)];
+      basis_.add(basis_.expand(rows_[index(kept)].row, rows_[index(kept)].row));
       ++kept;
     }
     size_ = kept;

@@ -3,6 +3,7 @@
 
 #include <array>
 
+#include "feeler/core/index.hpp"
 #include "feeler/core/scalar.hpp"
 
 namespace feeler {
@@ -37,10 +38,10 @@ class GramSchmidt {
     e.projections.fill(Scalar(0));
     for (int pass = 0; pass < 2; ++pass) {
       for (int j = 0; j < size_; ++j) {
-        const Scalar part = e.free.dot(images_[at(j)]) / squares_[at(j)];
-        e.projections[at(j)] += part;
-        e.free -= part * vectors_[at(j)];
-        e.free_image -= part * images_[at(j)];
+        const Scalar part = e.free.dot(images_[index(j)]) / squares_[index(j)];
+        e.projections[index(j)] += part;
+        e.free -= part * vectors_[index(j)];
+        e.free_image -= part * images_[index(j)];
       }
     }
     e.free_squared = e.free.dot(e.free_image);
@@ -51,29 +52,27 @@ class GramSchmidt {
 
   /// Adds a vector with its expansion, which must have a free part.
   void add(const Expansion& e) noexcept {
-    vectors_[at(size_)] = e.free;
-    images_[at(size_)] = e.free_image;
-    squares_[at(size_)] = e.free_squared;
-    projections_[at(size_)] = e.projections;
+    vectors_[index(size_)] = e.free;
+    images_[index(size_)] = e.free_image;
+    squares_[index(size_)] = e.free_squared;
+    projections_[index(size_)] = e.projections;
     ++size_;
   }
 
   /// u with (Σ u_j a_j, a_i) = c_i for all i.
   std::array<Scalar, capacity> solve(std::array<Scalar, capacity> c) const noexcept {
     for (int i = 0; i < size_; ++i) {
-      for (int j = 0; j < i; ++j) c[at(i)] -= projections_[at(i)][at(j)] * c[at(j)];
+      for (int j = 0; j < i; ++j) c[index(i)] -= projections_[index(i)][index(j)] * c[index(j)];
     }
-    for (int i = 0; i < size_; ++i) c[at(i)] /= squares_[at(i)];
+    for (int i = 0; i < size_; ++i) c[index(i)] /= squares_[index(i)];
     solve_upper(c);
     return c;
   }
 
  private:
-  static std::size_t at(int i) noexcept { return std::size_t(i); }
-
   void solve_upper(std::array<Scalar, capacity>& c) const noexcept {
     for (int i = size_ - 2; i >= 0; --i) {
-      for (int j = i + 1; j < size_; ++j) c[at(i)] -= projections_[at(j)][at(i)] * c[at(j)];
+      for (int j = i + 1; j < size_; ++j) c[index(i)] -= projections_[index(j)][index(i)] * c[index(j)];
     }
   }
 

@@ -100,7 +100,7 @@ QpStatus conclude(const QpProblem<Scalar>& problem, const Ldlt6<Scalar>& hessian
     if (multiplier > Scalar(0) && multiplier * row.dot(hessian.solve(row)) > slack) carrying.add(k, row, multiplier);
   }
   for (int i = 0; i < carrying.size(); ++i) {
-    const int k = carrying.index(i);
+    const int k = carrying.number(i);
     const Vector6<Scalar> row = problem.rows[std::size_t(k)];
     const Scalar slack = row.dot(step) - problem.bounds[std::size_t(k)];
     if (!(slack <= tolerance + rounding_of_row(row, step))) is_optimal = false;

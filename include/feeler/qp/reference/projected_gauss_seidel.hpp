@@ -3,6 +3,7 @@
 
 #include <array>
 
+#include "feeler/core/index.hpp"
 #include "feeler/qp/problem.hpp"
 #include "feeler/qp/qp_solver.hpp"
 #include "feeler/qp/reference/ldlt6.hpp"
@@ -43,14 +44,14 @@ class ProjectedGaussSeidel {
     if (!is_finite(problem)) return QpStatus::iteration_limit;
     Vector6<Scalar> x = -hessian_.solve(problem.gradient);
     for (int k = 0; k < problem.row_count; ++k) {
-      images_[at(k)] = hessian_.solve(problem.rows[at(k)]);
-      const Scalar square = problem.rows[at(k)].dot(images_[at(k)]);
-      multipliers_[at(k)] = Scalar(0);
+      images_[index(k)] = hessian_.solve(problem.rows[index(k)]);
+      const Scalar square = problem.rows[index(k)].dot(images_[index(k)]);
+      multipliers_[index(k)] = Scalar(0);
       if (square > Scalar(0)) {
-        compliance_[at(k)] = square;
+        compliance_[index(k)] = square;
       } else {  // a row of zeros says nothing, or can not be met
-        compliance_[at(k)] = Scalar(1);
-        if (problem.bounds[at(k)] > tolerance) {
+        compliance_[index(k)] = Scalar(1);
+        if (problem.bounds[index(k)] > tolerance) {
           solution.conflict.push_back(k);
           solution.step = x;
           return make_finite(solution) ? QpStatus::infeasible : QpStatus::iteration_limit;
@@ -65,19 +66,17 @@ class ProjectedGaussSeidel {
   }
 
  private:
-  static std::size_t at(int i) noexcept { return std::size_t(i); }
-
   /// Passes over the rows once, and returns the longest way that one moved [m].
   Scalar sweep(const Problem& problem, Vector6<Scalar>& x) noexcept {
     Scalar longest(0);
     for (int k = 0; k < problem.row_count; ++k) {
-      const Scalar lacking = problem.bounds[at(k)] - problem.rows[at(k)].dot(x);
-      Scalar change = relaxation * lacking / compliance_[at(k)];
-      if (!(multipliers_[at(k)] + change > Scalar(0))) change = -multipliers_[at(k)];
+      const Scalar lacking = problem.bounds[index(k)] - problem.rows[index(k)].dot(x);
+      Scalar change = relaxation * lacking / compliance_[index(k)];
+      if (!(multipliers_[index(k)] + change > Scalar(0))) change = -multipliers_[index(k)];
       if (change == Scalar(0)) continue;
-      multipliers_[at(k)] += change;
-      x += change * images_[at(k)];
-      const Scalar way = (change > Scalar(0) ? change : Scalar(-change)) * compliance_[at(k)];
+      multipliers_[index(k)] += change;
+      x += change * images_[index(k)];
+      const Scalar way = (change > Scalar(0) ? change : Scalar(-change)) * compliance_[index(k)];
       if (way > longest) longest = way;
     }
     return longest;

@@ -31,7 +31,7 @@ void prefer_own_plane(const Piece& piece, const Matrix3<typename Piece::Scalar>&
 /// starts says which features meet.
 /// @param pair     keeps the features, to start the next query from
 /// @param scene    `RenderedScene`
-/// @param corners  of its triangle in the tool frame, a corner a column [m]
+/// @param corners  of its triangle in the tool frame, one corner in each column [m]
 /// @param axes     of the tool
 template <class Pair, class Scene, class Scalar = typename Scene::Scalar>
 ClosestPoints<Scalar> closest_points_of(Pair& pair, const Scene& scene, const Matrix3<Scalar>& corners, const Matrix3<Scalar>& axes,

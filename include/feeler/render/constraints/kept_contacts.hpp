@@ -5,7 +5,6 @@
 
 #include "feeler/contact/contact_row.hpp"
 #include "feeler/core/fixed_vector.hpp"
-#include "feeler/core/scalar.hpp"
 #include "feeler/spatial/twist.hpp"
 
 namespace feeler {

@@ -43,7 +43,7 @@ class NeighbourQueue {
     const auto bring = [&](int triangle, const WitnessFeatures& features) {
       if (pairs.find(pair.piece, triangle) < 0) waiting_.push_back({pair.piece, triangle, features});
     };
-    if (pair.state == PairState::ghost && closest.distance < scene.touching()) {
+    if (pair.state == PairState::ghost && closest.distance < scene.contact_distance()) {
       const int nearer = patch.nearer_triangle(closest);
       if (nearer >= 0) bring(nearer, pair.features);
     }
@@ -52,7 +52,7 @@ class NeighbourQueue {
     if (closest.distance < too_near && !pairs.has_no_clearance(scene.clearance().none())) {
       patch.visit_continuations(too_near, [&](int triangle) { bring(triangle, {}); });
     }
-    if (closest.distance < scene.touching() && !pairs.has_no_clearance(scene.clearance().none()) && is_first_on_wall(scene, pair)) {
+    if (closest.distance < scene.contact_distance() && !pairs.has_no_clearance(scene.clearance().none()) && note_wall(scene, pair)) {
       patch.visit_rim([&](int triangle) { return pairs.find(pair.piece, triangle) >= 0; }, [&](int triangle) { bring(triangle, {}); });
     }
   }
@@ -62,9 +62,9 @@ class NeighbourQueue {
     int piece, wall;
   };
 
-  /// Whether a pair is the first of its wall and piece since walls were last forgotten.
+  /// Notes the wall of a pair; false where a pair of the same piece has done so since walls were last forgotten, or there is none.
   template <class Scene, class Pair>
-  bool is_first_on_wall(const Scene& scene, const Pair& pair) noexcept {
+  bool note_wall(const Scene& scene, const Pair& pair) noexcept {
     const OnWall at{pair.piece, scene.object().walls().of_triangle(pair.triangle)};
     if (at.wall < 0 ||
         std::any_of(walls_.begin(), walls_.end(), [&](const OnWall& other) { return other.piece == at.piece && other.wall == at.wall; }))

@@ -6,11 +6,11 @@
 #include "feeler/proximity/gjk.hpp"
 #include "feeler/proximity/highest_corner.hpp"
 #include "feeler/proximity/motion.hpp"
+#include "feeler/proximity/work_meter.hpp"
 #include "feeler/render/constraints/closest_points_of_pair.hpp"
 #include "feeler/render/constraints/covering_planes.hpp"
 #include "feeler/render/constraints/working_set.hpp"
 #include "feeler/spatial/pose.hpp"
-#include "feeler/tool/convex_tool.hpp"
 #include "feeler/tool/swept_tool.hpp"
 
 namespace feeler {
@@ -28,7 +28,7 @@ class PairSeparation {
   using Piece = typename Scene::Piece;
   using Pair = WorkingPair<Scalar>;
 
-  void clear() noexcept { planes_ = 0; }
+  void clear() noexcept { planes_.clear(); }
   /// @param is_at_start  whether a motion starts there
   void put_at(const Pose<Scalar>& pose, bool is_at_start) noexcept {
     pose_ = pose;
@@ -41,7 +41,7 @@ class PairSeparation {
   /// Of the tool.
   const Matrix3<Scalar>& axes() const noexcept { return axes_; }
   bool is_at_start() const noexcept { return is_at_start_; }
-  /// Of a pair's triangle in the tool frame, a corner a column [m].
+  /// Of a pair's triangle in the tool frame, one corner in each column [m].
   Matrix3<Scalar> corners_in_tool(const Scene& scene, const Pair& pair) const noexcept { return scene.in_tool(pair.corners_world, pose_, axes_); }
 
   /// Closest points of a pair, as `closest_points_of`, and what is remembered of them.
@@ -62,34 +62,32 @@ class PairSeparation {
   /// The same at another pose, with its axes.
   FEELER_FLATTEN Scalar slack_along(const Scene& scene, const Pair& pair, const Vector3<Scalar>& normal, const Pose<Scalar>& pose,
                                     const Matrix3<Scalar>& axes, int& work) noexcept {
-    if (++planes_ >= planes_per_work) {
-      planes_ = 0;
-      ++work;
-    }
+    planes_.add(1, work);
     const Piece& piece = scene.piece(pair.piece);
     const Scalar lowest = lowest_above(piece, scene.reference(), Vector3<Scalar>(axes.transpose() * normal)) - swept_radius(piece);
     return lowest - highest_corner<Scalar>(pair.corners_world.colwise() - pose.translation, normal);
   }
 
-  /// Whether a plane parts a pair where the motion starts by more than a distance; then it is the pair's.
-  bool holds_at_start(const Scene& scene, Pair& pair, const Vector3<Scalar>& normal, Scalar least, int& work) noexcept {
+  /// Makes a plane the pair's if it parts the pair where the motion starts by more than a distance.
+  bool try_plane_at_start(const Scene& scene, Pair& pair, const Vector3<Scalar>& normal, Scalar least, int& work) noexcept {
     const Scalar slack = slack_along(scene, pair, normal, work);
     if (!(slack > least)) return false;
     pair.set_plane(normal, slack);
     return true;
   }
 
-  /// Whether the plane of a pair parts it from the tool by more than what touches; or it is certainly beyond `reach` [m].
-  bool is_left_out(const Scene& scene, Pair& pair, Scalar reach, int& work) noexcept {
+  /// Whether the plane of a pair parts it from the tool by more than the contact distance, and at the start is its plane again; or it is beyond
+  /// `reach` [m].
+  bool try_own_plane(const Scene& scene, Pair& pair, Scalar reach, int& work) noexcept {
     if (pair.is_beyond(reach)) return true;
     if (!pair.has_plane()) return false;
-    if (is_at_start_) return holds_at_start(scene, pair, pair.normal, scene.touching(), work);
-    return slack_along(scene, pair, pair.normal, work) > scene.touching();
+    if (is_at_start_) return try_plane_at_start(scene, pair, pair.normal, scene.contact_distance(), work);
+    return slack_along(scene, pair, pair.normal, work) > scene.contact_distance();
   }
 
-  /// Whether the plane of a pair measured here parts this one too: the other's rows hold the tool for both.
-  bool is_covered(const Scene& scene, Pair& pair) noexcept {
-    const auto cover = covers_.above(from_tool(pair), scene.margin() / 1000, scene.touching());
+  /// Makes the plane of a pair measured here this one's too if it parts it: the other's rows hold the tool for both.
+  bool try_cover(const Scene& scene, Pair& pair) noexcept {
+    const auto cover = covers_.above(from_tool(pair), scene.margin() / 1000, scene.contact_distance());
     if (!cover) return false;
     pair.last_normal = cover->normal;
     if (is_at_start_) pair.set_plane(cover->normal, cover->distance);
@@ -100,8 +98,6 @@ class PairSeparation {
   void add_cover(const Pair& pair, Scalar distance) noexcept { covers_.add(pair.last_normal, from_tool(pair), distance); }
 
  private:
-  static constexpr int planes_per_work = 16;
-
   /// The corners of a pair, seen from the tool's reference point in world axes.
   Matrix3<Scalar> from_tool(const Pair& pair) const noexcept { return pair.corners_world.colwise() - pose_.translation; }
 
@@ -118,7 +114,7 @@ class PairSeparation {
   Matrix3<Scalar> axes_;  // there
   bool is_at_start_ = false;
   CoveringPlanes<Scalar> covers_;  // of the pairs measured there
-  int planes_ = 0;  // looked along since the work last grew for them
+  WorkMeter<16> planes_;  // looked along
 };
 
 }  // namespace feeler

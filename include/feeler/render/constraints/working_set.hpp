@@ -20,7 +20,7 @@ template <class Scalar>
 struct WorkingPair {
   int piece = 0;
   int triangle = -1;
-  Matrix3<Scalar> corners_world = Matrix3<Scalar>::Zero();  ///< a corner a column [m]
+  Matrix3<Scalar> corners_world = Matrix3<Scalar>::Zero();  ///< one corner in each column [m]
   WitnessFeatures features;       ///< where the last query ended
   Vector3<Scalar> last_normal = Vector3<Scalar>::Zero();  ///< world normal that it found
   Vector3<Scalar> normal = Vector3<Scalar>::Zero();  ///< world normal that separates at the certified pose, or zero
@@ -49,15 +49,15 @@ struct WorkingPair {
   bool is_beyond(Scalar distance) const noexcept { return slack - moved > distance; }
 };
 
-/// The working set: constraints enter when they block, and leave after a tick in which they were of no use. Each is looked at wherever a motion
-/// starts or a step ends, which costs more than to meet a few of them again.
+/// The working set: constraints enter when they block a motion or are near where it ends, and leave as `age` says. Each is looked at wherever a
+/// motion starts or a step ends, which costs more than to meet a few of them again.
 template <class ScalarType, int pair_capacity = 48>
 class WorkingSet {
  public:
   using Scalar = ScalarType;
   using Pair = WorkingPair<Scalar>;
   static constexpr int capacity = pair_capacity;
-  /// A shaft that fits touches its hole all around, and a few of those triangles hold it.
+  /// Ticks for which a pair that touches stays unused: a shaft that fits touches its hole all around, and a few of those triangles hold it.
   static constexpr int longest_unused = 1000;
   static constexpr int longest_unused_filler = 8;
 
@@ -108,15 +108,18 @@ class WorkingSet {
     for (Pair& pair : pairs_) pair.moved += length;
   }
 
-  /// Counts a tick, and drops what was not used in it, nor lies closer than `touch` [m] and does more than repeat others; and what has been unused
-  /// for too long. What is closer than `noticed` [m] stays, unless that is 0: it would be noticed again.
-  void age(Scalar touch, Scalar noticed, bool goes_on) noexcept {
+  /// Counts a tick, and drops pairs that have been unused for longer than one; those that touch, and do not repeat the rows of others, for longer
+  /// than `longest_unused`, or as fillers than `longest_unused_filler`. Those that would be noticed again stay.
+  /// @param contact_distance  what is nearer touches [m]
+  /// @param noticed           what is nearer would be noticed [m]; 0 where nothing is, as there is no clearance
+  /// @param is_motion_left           the last tick left motion for this one, and ghosts that blocked it keep their rows
+  void age(Scalar contact_distance, Scalar noticed, bool is_motion_left) noexcept {
     for (int i = pairs_.size() - 1; i >= 0; --i) {
       Pair& pair = pairs_[i];
-      if (!goes_on) pair.keeps_ghost = false;
+      if (!is_motion_left) pair.keeps_ghost = false;
       ++pair.unused_ticks;
       if (noticed > Scalar(0) && pair.slack < noticed) continue;
-      const bool touches = pair.slack < touch && pair.state != PairState::repeats;
+      const bool touches = pair.slack < contact_distance && pair.state != PairState::repeats;
       const int longest = !touches ? 1 : pair.is_filler ? longest_unused_filler : longest_unused;
       if (pair.unused_ticks > longest) pairs_.swap_remove(i);
     }

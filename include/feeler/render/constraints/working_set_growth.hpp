@@ -48,7 +48,7 @@ bool take_in_blockers(Pairs& pairs, const Scene& scene, const SweepResult<typena
     if (pair.state == PairState::ghost) {
       is_new = pair.keeps_ghost = true;
       pair.state = PairState::left_out;  // to be measured again, where all else is carried
-    } else if (pair.slack < scene.touching()) {
+    } else if (pair.slack < scene.contact_distance()) {
       meets_touching = true;
       if (is_convex && pair.state == PairState::repeats) pair.state = PairState::left_out;  // to be measured, whatever covers it
     } else if (pair.state == PairState::left_out) {

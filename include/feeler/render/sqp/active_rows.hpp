@@ -2,13 +2,12 @@
 #pragma once
 
 #include "feeler/core/fixed_vector.hpp"
-#include "feeler/core/scalar.hpp"
 #include "feeler/spatial/twist.hpp"
 
 namespace feeler {
 
-/// The active set of a step, with its rows as they were where the step began. Where the next step goes back on it, each linearisation lacks what stopped
-/// the other, and these rows are cuts.
+/// The active set of a step, with its rows as they were where the step began. Where the next step goes back on it, each linearisation lacks what
+/// stopped the other, and these rows are cuts.
 template <class RowType, int capacity>
 class ActiveRows {
  public:

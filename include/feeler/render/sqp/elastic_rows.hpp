@@ -10,6 +10,7 @@
 #include <Eigen/Cholesky>
 #include <Eigen/QR>
 
+#include "feeler/core/index.hpp"
 #include "feeler/core/scalar.hpp"
 #include "feeler/qp/problem.hpp"
 #include "feeler/qp/qp_solver.hpp"
@@ -20,17 +21,18 @@ namespace feeler {
 /// Solves  min ½ dᵀ H d + gᵀ d + c ξ  subject to  aₖᵀ d ≥ max(hardₖ, softₖ − ξ) for rows in conflict, aₖᵀ d ≥ softₖ for all others,  ξ ≥ 0.
 ///
 /// The penalty of the largest violation with price c (J. Nocedal, S. Wright, "Numerical Optimization", 2nd ed., section 17.2): exact as long as the
-/// multipliers of soft rows add up to no more than c. As it counts the largest violation, rows that repeat others change nothing. Rows are in
-/// conflict where a certificate of infeasibility names them, or one that is parallel, where a step of zero leaves them short by a hundredth of the most
-/// that is missing, or where their multipliers cost more than c; all others keep their soft bound.
+/// multipliers of soft rows add up to no more than c. As it counts the largest violation, rows that repeat others change nothing. A row is in conflict
+/// where a certificate of infeasibility names it, or one that is parallel; where a step of zero leaves it short by a hundredth of the most that is
+/// missing; or where multipliers cost more than c and it is active. All others keep their soft bound.
 ///
-/// The relaxation ξ grows from 0 to the least that will do. A QP without a solution names rows that contradict each other: Σ yₖ aₖ = 0 with y ≥ 0, so
-/// Σ yₖ boundₖ ≤ 0 must hold, which tells how much ξ must be. Where multipliers add up to more than c, they fall by 1ᵀ(A H⁻¹ Aᵀ)⁻¹ 1 for each unit of ξ, until
-/// other rows are active.
+/// The relaxation ξ grows from 0 to the least that will do. A QP without a solution names rows that contradict each other, Σ yₖ aₖ = 0 with y ≥ 0.
+/// So Σ yₖ boundₖ ≤ 0 must hold, which tells how much ξ must be. Where multipliers add up to more than c, they fall by 1ᵀ(A H⁻¹ Aᵀ)⁻¹ 1 for each unit
+/// of ξ, until other rows are active.
 template <RealScalar ScalarType, int row_capacity>
 class ElasticRows {
  public:
   using Scalar = ScalarType;
+  static constexpr int most_solves = 24;
 
   void clear() noexcept { size_ = 0; }
   /// Appends the bounds of the next row of a problem.
@@ -50,18 +52,18 @@ class ElasticRows {
   /// @param problem  its Hessian, gradient and rows are given; its bounds become those that hold
   /// @param price    c
   /// @param least    smallest change of ξ worth a QP: some tolerances of the solver [m]
-  /// @param most_solves  QPs; with the last one all rows are relaxed
+  /// @param allowed  QPs, `most_solves` at most; with the last one all rows are relaxed
   /// @param start    rows that are likely to be active
   /// @return  QPs solved, or 0 where not even the hard bounds have a solution, to the solver's tolerance
-  /// @cost    noexcept, no allocation; one QP where nothing is to be relaxed, 24 or `most_solves` at most
+  /// @cost    noexcept, no allocation; one QP where nothing is to be relaxed
   template <QpSolver Solver>
-  int solve(Solver& solver, QpProblem<Scalar>& problem, Scalar price, Scalar least, int most_solves, const WarmStart& start,
+  int solve(Solver& solver, QpProblem<Scalar>& problem, Scalar price, Scalar least, int allowed, const WarmStart& start,
             QpSolution<Scalar>& solution) noexcept {
-    const int maximum_solves = (std::min)(most_solves, 24);
+    const int last = (std::min)(allowed, most_solves);
     Search search{.price = price, .least = least, .most = relaxation_at_rest()};
     begin_again(search);
-    for (int solves = 1; solves <= maximum_solves; ++solves) {
-      const bool is_last = solves == maximum_solves;
+    for (int solves = 1; solves <= last; ++solves) {
+      const bool is_last = solves == last;
       if (is_last) relax_all(search.high);
       load(problem);
       const QpStatus status = solves == 1 ? solve_from(solver, problem, start, solution) : solver.solve(problem, solution);
@@ -91,8 +93,6 @@ class ElasticRows {
     Scalar low = Scalar(0), high = Scalar(0);  // the relaxation lies between [m]
     bool is_least = true;  // with less than the one at hand there is no solution
   };
-
-  static std::size_t index(int k) noexcept { return std::size_t(k); }
 
   /// A solver that knows no warm start does without.
   template <QpSolver Solver>

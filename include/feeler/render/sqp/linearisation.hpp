@@ -76,21 +76,21 @@ class Linearisation {
     }
     for (; next_quiet_ < quiet_.size(); ++next_quiet_) {
       Pair& pair = pairs_[quiet_[next_quiet_]];
-      if (!separation_.is_covered(scene, pair) && !measure_if_near(scene, pair, tick, limit)) return false;
+      if (!separation_.try_cover(scene, pair) && !measure_if_near(scene, pair, tick, limit)) return false;
     }
     return finish(scene, tick, limit);
   }
 
-  /// The same with the rows of the last linearisation, as the features that meet are the same; false where that was not within a step tolerance, or a plane of it parts its pair by less than a certificate
-  /// requires, or the work ran out: called again at that pose it goes on.
+  /// The same with the rows of the last linearisation, carried: the features that meet are the same. False where that was farther away than a step
+  /// tolerance, where a plane parts its pair by less than a certificate requires, or where the work ran out: called again there it goes on.
   bool start_carried(const Scene& scene, const Pose<Scalar>& pose, Scalar reach, Tick<MeshScalar>& tick, int limit = unlimited) noexcept {
     if (!has_rows_ || problem_.rests_on_kept()) return false;  // rows of the features that the tool was to leave
     const Twist<Scalar> motion = scene.idle_turns().motion_between(separation_.pose(), pose);
-    if (scene.length_of(motion, pose) > Scalar(scene.settings().step_tolerance)) return false;
+    if (scene.length_of(motion, pose) > scene.step_tolerance()) return false;
     start_at(pose, reach);
     for (Pair& pair : pairs_) {
       if (pair.state == PairState::left_out) continue;
-      if (!separation_.holds_at_start(scene, pair, pair.last_normal, scene.clearance().required(pair.slack), tick.work)) return false;
+      if (!separation_.try_plane_at_start(scene, pair, pair.last_normal, scene.clearance().required(pair.slack), tick.work)) return false;
       pair.is_ghost = pair.state == PairState::ghost;
     }
     const bool are_carried = carry_rows(scene, motion, tick, [&](const Row& row, const Pair& pair) {
@@ -151,13 +151,12 @@ class Linearisation {
     const auto so_far = [&] { return scene.idle_turns().motion_between(start_, separation_.pose()); };
     return kept_.keep_broken(so_far, motion, scene.margin(), problem_);
   }
-
   /// Remembers what stopped a step.
   void remember_stops(const Twist<Scalar>& step) noexcept { stops_.remember(step, problem_); }
   const auto& stops() const noexcept { return stops_; }
   /// Adds what stopped the last step, but for what was assumed, to the rows where it ended; false if they have it all.
   bool keep_stops(const Scene& scene) noexcept {
-    return stops_.keep_in(problem_, [&](const Row& row) { return scene.clearance().certified(pairs_[pairs_.find(row.piece, row.triangle)].slack); });
+    return stops_.keep_in(problem_, [&](const Row& row) { return scene.clearance().certified(pair_of(row).slack); });
   }
 
   /// Takes the triangles that the contacts of a solution pass over to into the working set, as far as the work goes: the row of one they have left
@@ -171,13 +170,16 @@ class Linearisation {
       const Vector3<Scalar> point = separation_.pose().translation + step->linear + row.carried(*step).arm;
       const int triangle = triangle_under(scene.object(), row.triangle, point);
       if (triangle < 0 || pairs_.find(row.piece, triangle) >= 0) continue;
-      take_in_as_at_start(scene, row.piece, triangle, pairs_[pairs_.find(row.piece, row.triangle)].features, tick);
+      take_in_as_at_start(scene, row.piece, triangle, pair_of(row).features, tick);
     }
   }
 
  private:
   using Pair = typename Pairs::Pair;
   using Standing = typename Problem::Standing;
+
+  /// The pair of a row in the problem, or of the last step: none is dropped amid a motion.
+  const Pair& pair_of(const Row& row) const noexcept { return pairs_[pairs_.find(row.piece, row.triangle)]; }
 
   void start_at(const Pose<Scalar>& pose, Scalar reach) noexcept {
     separation_.put_at(pose, true);
@@ -212,7 +214,7 @@ class Linearisation {
   /// False where there is no work left for it.
   bool measure_if_near(const Scene& scene, Pair& pair, Tick<MeshScalar>& tick, int limit) noexcept {
     if (tick.work >= limit) return false;
-    if (separation_.is_left_out(scene, pair, reach_, tick.work)) {
+    if (separation_.try_own_plane(scene, pair, reach_, tick.work)) {
       pair.state = PairState::left_out;
       leaves_out_pairs_ = true;
     } else {
@@ -242,13 +244,11 @@ class Linearisation {
       row.piece = pair.piece;
       row.triangle = pair.triangle;
       if (problem_.repeats(row)) continue;
+      if (!problem_.add(row, standing_of(scene, pair))) break;
       pair.state = PairState::has_rows;
-      problem_.add(row, standing_of(scene, pair));
       if (separation_.is_at_start()) keep_if_touching(scene, row, pair);
     }
-    if constexpr (is_convex) {
-      if (pair.state == PairState::has_rows && !pair.keeps_ghost && !closest.is_touching) separation_.add_cover(pair, closest.distance);
-    }
+    if (is_convex && pair.state == PairState::has_rows && !pair.keeps_ghost && !closest.is_touching) separation_.add_cover(pair, closest.distance);
   }
 
   /// Takes in, and measures, the neighbours of what was measured; false where the work ran out.
@@ -269,7 +269,7 @@ class Linearisation {
 
   /// A contact so close that any motion may break it is kept; where there is no clearance at all, rounding decides which is.
   void keep_if_touching(const Scene& scene, const Row& row, const Pair& pair) noexcept {
-    const bool touches = row.gap > scene.margin() / 1000 && row.gap < scene.touching();
+    const bool touches = row.gap > scene.margin() / 1000 && row.gap < scene.contact_distance();
     if (touches && !problem_.is_relaxed() && !row.is_assumed) kept_.add(row, scene.clearance().certified(pair.slack));
   }
 

@@ -3,7 +3,6 @@
 
 #include <cmath>
 
-#include "feeler/core/scalar.hpp"
 #include "feeler/spatial/turned_metric.hpp"
 #include "feeler/spatial/twist.hpp"
 

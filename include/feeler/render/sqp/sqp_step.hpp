@@ -1,7 +1,6 @@
 // The step of one linearisation: its QPs, and the rows that these turn out to need.
 #pragma once
 
-#include "feeler/core/scalar.hpp"
 #include "feeler/qp/qp_solver.hpp"
 #include "feeler/render/rendered_scene.hpp"
 #include "feeler/render/sqp/linearisation.hpp"
@@ -31,7 +30,7 @@ struct Leg {
   Twist<Scalar> motion;  ///< to the end, from the certified pose
 };
 
-/// Solves for the step of a task: a projection, the rows of what that would cross, and a step with the Hessian of the Lagrangian.
+/// Solves for the step of a task: a Gauss-Newton step, the rows of what that would cross, and a Newton step with the Hessian of the Lagrangian.
 ///
 /// @cost  noexcept, no allocation; where the work of the tick runs out, it is with fewer rows
 template <RigidTool ToolType, QpSolver Solver>
@@ -50,11 +49,11 @@ class SqpStep {
   /// Solves with the rows of what the step would cross; where the work runs out with less than that.
   void solve() noexcept {
     constexpr int most_additions = 3;
-    if (!task_.is_capped && bend_again()) return;
-    project();
+    if (!task_.is_capped && solve_newton_by_guess()) return;
+    solve_gauss_newton();
     for (int i = 0; i < most_additions && budget_.allows_solve(tick_.work) && rows_.add_crossed(scene_, trusted_step(), tick_, budget_.limit()); ++i)
-      project();
-    if (!task_.is_capped) bend();
+      solve_gauss_newton();
+    if (!task_.is_capped) solve_newton();
   }
 
   /// Solves again with the contacts of the certified pose that the motion would break (cuts); here and below, if there is work left.
@@ -62,7 +61,7 @@ class SqpStep {
   Leg<Scalar> with_kept_contacts(Leg<Scalar> so_far) noexcept {
     rows_.release_kept();
     for (int round = 0; round < 2 && budget_.allows_solve(tick_.work) && rows_.keep_broken(scene_, so_far.motion); ++round) {
-      project_again();
+      solve_again();
       so_far = leg();
     }
     return so_far;
@@ -74,7 +73,7 @@ class SqpStep {
     const TurnedMetric<Scalar>& metric = scene_.metric();
     if (!(metric.product(solved_step(), last_step) < -metric.energy(last_step) / 2)) return false;
     if (!budget_.allows_solve(tick_.work) || !rows_.keep_stops(scene_)) return false;
-    project_again();
+    solve_again();
     return true;
   }
 
@@ -100,39 +99,39 @@ class SqpStep {
   /// Leaves half of the work to what follows.
   void limit_solves() noexcept { problem().limit_solves((budget_.limit() - tick_.work) / 2); }
 
-  void project() noexcept {
+  void solve_gauss_newton() noexcept {
     limit_solves();
     if (task_.is_capped) {
       problem().restore(scene_.metric(), scene_.margin());
     } else {
-      problem().project(scene_.metric(), task_.off, scene_.margin());
+      problem().solve_gauss_newton(scene_.metric(), task_.off, scene_.margin());
     }
     tick_.work += problem().solves();
   }
 
-  void bend() noexcept {
+  void solve_newton() noexcept {
     if (problem().is_free()) return;
     limit_solves();
-    problem().bend(scene_.metric(), task_.off);
+    problem().solve_newton(scene_.metric(), task_.off);
     tick_.work += problem().solves();
   }
 
-  /// Solves with the forces of the last step; false where a projection is to find others.
-  bool bend_again() noexcept {
+  /// Solves with the forces of the last step; false where a Gauss-Newton step is to find others.
+  bool solve_newton_by_guess() noexcept {
     using Guess = typename Rows::Problem::Guess;
     limit_solves();
-    const Guess guess = problem().bend_again(scene_.metric(), task_.off, scene_.margin());
+    const Guess guess = problem().solve_newton_by_guess(scene_.metric(), task_.off, scene_.margin());
     if (guess == Guess::none) return false;
     tick_.work += problem().solves();
     if (guess == Guess::wrong || rows_.add_crossed(scene_, trusted_step(), tick_, budget_.limit())) return false;
-    if (guess == Guess::close) bend();
+    if (guess == Guess::close) solve_newton();
     return true;
   }
 
   /// Solves again with rows that came late.
-  void project_again() noexcept {
-    project();
-    if (!task_.is_capped) bend();
+  void solve_again() noexcept {
+    solve_gauss_newton();
+    if (!task_.is_capped) solve_newton();
   }
 
   const Scene& scene_;

@@ -4,8 +4,6 @@
 #include <algorithm>
 #include <limits>
 
-#include "feeler/core/scalar.hpp"
-
 namespace feeler {
 
 /// Lengths up to which a linearisation, or the certificate's work, is trusted. They learn from what became of the motions.

@@ -7,6 +7,7 @@
 
 #include "feeler/contact/contact_row.hpp"
 #include "feeler/core/fixed_vector.hpp"
+#include "feeler/core/index.hpp"
 #include "feeler/core/scalar.hpp"
 #include "feeler/qp/qp_solver.hpp"
 #include "feeler/qp/warm_start.hpp"
@@ -19,10 +20,10 @@ namespace feeler {
 
 /// Solves for one step d of the tool: min f(d) + price · ξ subject to gapₖ + Jₖ d ≥ max(leastₖ, margin − ξ).
 ///
-/// ξ is what is missing of the margin where most is missing (`ElasticRows`), and its price is of the order of the largest contact force: no step goes
-/// away from the hand for more than the margin is worth. `leastₖ` is what the pair has at the last certified pose, of which a fifth of the margin is
-/// enough; as that pose meets it, a step exists. Where there is no clearance at all it is 0. Many rows ask the same then, and chance would tell which
-/// of them hold the tool: those that have not held it lately are asked for a picometre less, so that it is the same few.
+/// ξ is what is missing of the margin where most is missing (`ElasticRows`). Its price is of the order of the largest contact force, so no step goes
+/// away from the hand for more than the margin is worth. `leastₖ` is the separation of the pair at the last certified pose, or a fifth of the margin
+/// where that is less. That pose meets it, so a step exists. Without clearance it is 0. Many rows ask the same then, and chance would tell which of
+/// them hold the tool: those that have not held it lately are asked for a picometre less, so that the same few hold it.
 /// @tparam RowType  a `ContactRow`, or one with another curvature
 template <QpSolver Solver, int rows = 128, class RowType = ContactRow<typename Solver::Scalar>>
 class StepProblem {
@@ -58,14 +59,18 @@ class StepProblem {
   template <class StandingOf>
   bool carry(const Displacement<Scalar>& motion, const StandingOf& standing_of) noexcept {
     const int count = rows_.size() - kept_;
-    clear();
-    for (int k = 0; k < count; ++k) {
-      const Row row = rows_[k].carried(motion);
+    int carried = 0;
+    for (; carried < count; ++carried) {
+      Row& row = rows_[carried];
+      row = row.carried(motion);
       const std::optional<Standing> standing = standing_of(row);
-      if (!standing) return false;
-      add(row, *standing);
+      if (!standing) break;
+      standings_[index(carried)] = *standing;
     }
-    return true;
+    while (rows_.size() > carried) rows_.pop_back();
+    kept_ = 0;
+    is_solved_ = false;
+    return carried == count;
   }
   /// Appends a row that held where the motion began, to hold where it ends; no other row may follow.
   bool keep(const Row& row, Scalar certified_gap) noexcept {
@@ -74,7 +79,7 @@ class StepProblem {
     return true;
   }
   /// How many QPs the next steps may take each; a few in any case.
-  void limit_solves(int most) noexcept { most_solves_ = (std::max)(most, 3); }
+  void limit_solves(int most) noexcept { allowed_solves_ = (std::max)(most, 3); }
   /// QPs that the last step took.
   int solves() const noexcept { return solves_; }
   /// Whether the rows are those of the last solution, and some kept or added since.
@@ -110,8 +115,8 @@ class StepProblem {
   /// Room that the last step left to a row before it would stop it, to first order [m]; 0 for an active one.
   Scalar room_after(int k) const noexcept { return problem_.rows[index(k)].dot(solution_.step) - problem_.bounds[index(k)]; }
 
-  /// The step that minimises f with its own Hessian: the way home, where no row holds.
-  const Vector6<Scalar>& project(const TurnedMetric<Scalar>& metric, const Twist<Scalar>& graphic_from_haptic, Scalar margin) noexcept {
+  /// The step with the Hessian of f alone: the way home, where no row holds.
+  const Vector6<Scalar>& solve_gauss_newton(const TurnedMetric<Scalar>& metric, const Twist<Scalar>& graphic_from_haptic, Scalar margin) noexcept {
     load_rows(margin);
     if (!metric.is_turned() && metric.along().is_isotropic()) {
       detail::set_symmetric(problem_.hessian, detail::diagonal_of(metric.along().diagonal()));
@@ -126,42 +131,42 @@ class StepProblem {
     if (is_free_) last_forces_.clear();
     return solution_.step;
   }
-  /// After `project`, or a near guess: where contacts hold, the step with the Hessian of the Lagrangian.
-  const Vector6<Scalar>& bend(const TurnedMetric<Scalar>& metric, const Twist<Scalar>& graphic_from_haptic) noexcept {
+  /// After `solve_gauss_newton`, or a close guess: where contacts hold, the step with the Hessian of the Lagrangian.
+  const Vector6<Scalar>& solve_newton(const TurnedMetric<Scalar>& metric, const Twist<Scalar>& graphic_from_haptic) noexcept {
     if (is_free_) return solution_.step;
-    projection_ = solution_;
-    is_newton_ = set_lagrangian(problem_, metric, graphic_from_haptic, rows_, projection_.active);
-    solve_elastic(WarmStart(projection_));
+    gauss_newton_ = solution_;
+    is_newton_ = set_lagrangian(problem_, metric, graphic_from_haptic, rows_, gauss_newton_.active);
+    solve_elastic(WarmStart(gauss_newton_));
     // Without its rows the curvature they were given means nothing.
-    if (solution_.active.empty()) solution_ = projection_;
+    if (solution_.active.empty()) solution_ = gauss_newton_;
     remember_forces();
     return solution_.step;
   }
   /// What the forces of the last step are worth in the next one.
   enum class Guess {
     none,  ///< no contact held the tool, or one that did is gone: nothing was solved
-    wrong,  ///< no contact holds it now, or not all rows can have the margin: to be projected
-    close,  ///< as good as a projection, as other contacts hold it, or with other forces: to be bent
-    right,  ///< the step is what `bend` would find
+    wrong,  ///< no contact holds it now, or not all rows can have the margin: `solve_gauss_newton` is to follow
+    close,  ///< other contacts hold it, or with other forces: `solve_newton` is to follow
+    right,  ///< the step is what `solve_newton` would find
   };
-  /// Both at once, with the forces of the last step in place of those of a projection (sequential quadratic programming).
-  Guess bend_again(const TurnedMetric<Scalar>& metric, const Twist<Scalar>& graphic_from_haptic, Scalar margin) noexcept {
-    if (last_forces_.empty() || !last_forces_.find(rows_, projection_.active)) return Guess::none;
+  /// Both at once, with the forces of the last step in place of those of a Gauss-Newton step (sequential quadratic programming).
+  Guess solve_newton_by_guess(const TurnedMetric<Scalar>& metric, const Twist<Scalar>& graphic_from_haptic, Scalar margin) noexcept {
+    if (last_forces_.empty() || !last_forces_.find(rows_, gauss_newton_.active)) return Guess::none;
     load_rows(margin);
     set_price(metric, graphic_from_haptic, margin);
-    is_newton_ = set_lagrangian(problem_, metric, graphic_from_haptic, rows_, projection_.active);
-    solve_elastic(WarmStart(projection_));
+    is_newton_ = set_lagrangian(problem_, metric, graphic_from_haptic, rows_, gauss_newton_.active);
+    solve_elastic(WarmStart(gauss_newton_));
     if (solution_.active.empty() || is_relaxed()) return Guess::wrong;
     is_free_ = false;
-    if (!has_forces_like(projection_)) return Guess::close;
+    if (!has_forces_like(gauss_newton_)) return Guess::close;
     remember_forces();
     return Guess::right;
   }
   /// Knows nothing of earlier steps.
   void forget() noexcept { last_forces_.clear(); }
-  /// Whether no contact holds the tool: the last `project` was not stopped by any row, nor a guess after it.
+  /// Whether no contact holds the tool: the last Gauss-Newton step was not stopped by any row, nor a guess after it.
   bool is_free() const noexcept { return is_free_; }
-  /// Whether the last `bend` had the Hessian of the Lagrangian whole: else steps shrink by a ratio only, and a short one is not the last.
+  /// Whether the last Newton step had the Hessian of the Lagrangian whole: else steps shrink by a ratio only, and a short one is not the last.
   bool is_newton() const noexcept { return is_newton_; }
 
   /// The smallest step that meets the rows.
@@ -175,8 +180,6 @@ class StepProblem {
   }
 
  private:
-  static std::size_t index(int i) noexcept { return std::size_t(i); }
-
   /// Whether the last solution has the active rows of another, and their multipliers to an eighth of its largest.
   bool has_forces_like(const QpSolution<Scalar>& other) const noexcept {
     Scalar largest(0), change(0);
@@ -189,7 +192,7 @@ class StepProblem {
     return solution_.active.size() == other.active.size() && 8 * change <= largest;
   }
 
-  /// Where rows have given up the margin only a projection knows which.
+  /// Where rows have given up the margin only a Gauss-Newton step knows which.
   void remember_forces() noexcept {
     if (is_relaxed()) last_forces_.clear();
     else last_forces_.remember(solution_.active, rows_);
@@ -217,7 +220,7 @@ class StepProblem {
   /// @param start  rows that are likely to be active
   void solve_elastic(const WarmStart& start = {}) noexcept {
     is_solved_ = is_optimal_ = true;
-    solves_ = elastic_.solve(solver_, problem_, price_, picometre, most_solves_, start, solution_);
+    solves_ = elastic_.solve(solver_, problem_, price_, picometre, allowed_solves_, start, solution_);
     if (solves_ > 0) return;
     solves_ = 1;
     // Rounding or curvature may leave a row short of its hard bound by a hair: stay where rows allow it.
@@ -235,7 +238,7 @@ class StepProblem {
   Solver solver_;
   QpProblem<Scalar> problem_;
   QpSolution<Scalar> solution_;
-  QpSolution<Scalar> projection_;  // or what is taken for one
+  QpSolution<Scalar> gauss_newton_;  // or what is taken for one
   LastForces<Row> last_forces_;
   bool is_free_ = true;
   bool is_newton_ = true;
@@ -244,7 +247,7 @@ class StepProblem {
   std::array<Standing, std::size_t(row_capacity)> standings_;
   ElasticRows<Scalar, row_capacity> elastic_;
   Scalar price_ = Scalar(0);  // of the margin, in the unit of multipliers
-  int most_solves_ = 24, solves_ = 0;
+  int allowed_solves_ = ElasticRows<Scalar, row_capacity>::most_solves, solves_ = 0;
   bool is_solved_ = false;  // since the rows were last cleared
   bool is_optimal_ = true;  // as the solver says of the last QP
 };

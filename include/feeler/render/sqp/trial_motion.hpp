@@ -3,7 +3,6 @@
 
 #include <algorithm>
 
-#include "feeler/core/scalar.hpp"
 #include "feeler/qp/qp_solver.hpp"
 #include "feeler/render/rendered_scene.hpp"
 #include "feeler/render/sqp/linearisation.hpp"
@@ -42,8 +41,6 @@ class TrialMotionSearch {
 
   static constexpr int most_rounds = 4;  // linearisations for one motion
 
-  /// A step that is short whatever the one before it was [m].
-  static Scalar very_short(const Scene& scene) noexcept { return Scalar(scene.settings().step_tolerance) / 50; }
   /// What is farther away cannot stop the next step [m].
   static Scalar reach_of_step(const Scene& scene, const StepLimits<Scalar>& limits) noexcept { return limits.trust() + scene.margin(); }
 
@@ -88,12 +85,13 @@ class TrialMotionSearch {
     Scalar first = 0, previous = 0;  // lengths of steps [m]
   };
 
-  /// Rows where the motion starts, or where its last step ended; false where there is no work left to measure all pairs, and then to solve for a step.
+  /// Rows where the motion starts, or where its last step ended; false where there is no work left to measure all pairs, and then to solve for a
+  /// step.
   bool linearise(const Scene& scene, bool may_carry, Scalar reach, const WorkBudget& budget, Tick<MeshScalar>& tick) noexcept {
-    const bool goes_on = is_measuring_;
+    const bool is_resumed = is_measuring_;
     const bool has_worked = tick.work > 0;
     bool is_done;
-    if (goes_on) {
+    if (is_resumed) {
       is_done = linearisation_.go_on(scene, tick, budget.limit());
     } else if (rounds_.count == 0) {
       const auto is_too_late = [&] { return has_worked && !budget.allows_step(tick.work); };  // the next tick has work for it
@@ -105,7 +103,7 @@ class TrialMotionSearch {
       rounds_.is_measured = !(motion_.is_capped && linearisation_.carry_to(scene, rounds_.pose, tick));
       is_done = !rounds_.is_measured || linearisation_.move_to(scene, rounds_.pose, rounds_.assumes_valleys, tick, budget.limit());
     }
-    const bool may_solve = !rounds_.is_measured || budget.allows_step(tick.work) || (goes_on && tick.work == 0);
+    const bool may_solve = !rounds_.is_measured || budget.allows_step(tick.work) || (is_resumed && tick.work == 0);
     is_measuring_ = !(is_done && may_solve);
     return !is_measuring_;
   }
@@ -121,7 +119,7 @@ class TrialMotionSearch {
     const Scalar last = scene.length_of(leg.step, task.linearised);
     if (rounds_.count == 0) {
       rounds_.first = last;
-      motion_.is_at_rest = rounds_.is_measured && last < very_short(scene) / 100;
+      motion_.is_at_rest = rounds_.is_measured && last < scene.at_rest();
     }
     const Scalar longest = limits.longest(linearisation_.is_empty());
     // Where the optimum is flat a step may be of more than a turn, of which a pose would not know the direction.
@@ -142,7 +140,7 @@ class TrialMotionSearch {
       motion_.motion = motion_.motion * (longest / length);
       return true;
     }
-    return is_last(scene, last, length);
+    return finish_round(scene, last, length);
   }
 
   /// With the contacts that the motion would break, and what stopped the last step where this one goes back.
@@ -151,27 +149,27 @@ class TrialMotionSearch {
     step.solve();
     if (is_first) motion_.restoration = (std::max)(linearisation_.problem().worth_of_margin(), Scalar(0));
     Leg<Scalar> leg = is_first ? step.leg() : step.with_kept_contacts(step.leg());
-    if (rounds_.previous > very_short(scene) && !motion_.is_capped && step.reconcile()) {
+    if (rounds_.previous > scene.very_short() && !motion_.is_capped && step.reconcile()) {
       leg = step.leg();
       rounds_.is_taken_back = rounds_.is_taken_back || rounds_.count == 1;
     }
     return leg;
   }
 
-  /// Whether the step just taken is the last one, and what is so of the motion.
+  /// Notes what is so of the motion after a step; whether that is the last one.
   /// @param last    length of the step [m]
   /// @param length  of the motion so far [m]
-  bool is_last(const Scene& scene, Scalar last, Scalar length) noexcept {
+  bool finish_round(const Scene& scene, Scalar last, Scalar length) noexcept {
     const auto& problem = linearisation_.problem();
     const bool rests_on_assumption = problem.rests_on_assumption();
     rounds_.assumes_valleys = rounds_.assumes_valleys && !rests_on_assumption;  // with it again, two linearisations would take turns
     // A short step is the last one where steps shrink fast, and go on to, or where it is very short.
     const bool shrinks_fast = problem.is_newton() && last < rounds_.previous / 10;
-    const bool is_short = last < Scalar(scene.settings().step_tolerance) && (shrinks_fast || last < very_short(scene));
+    const bool is_short = last < scene.step_tolerance() && (shrinks_fast || last < scene.very_short());
     rounds_.previous = last;
     const bool rests_on_kept = problem.rests_on_kept();
     motion_.is_home = motion_.is_free && !motion_.is_capped && scene.has_led_to(aim_, rounds_.pose, length);
-    motion_.is_taken_back = rounds_.is_taken_back && rests_on_kept && last < very_short(scene) && !motion_.is_capped;
+    motion_.is_taken_back = rounds_.is_taken_back && rests_on_kept && last < scene.very_short() && !motion_.is_capped;
     motion_.goes_back = rests_on_kept && length < rounds_.first / 4 && !motion_.is_capped;
     motion_.is_settled = (is_short && rounds_.is_measured && !rests_on_assumption && !rests_on_kept && problem.keeps_features()) || motion_.is_home;
     return motion_.is_settled || motion_.is_capped || (is_short && rests_on_kept);

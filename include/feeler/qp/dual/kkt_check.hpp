@@ -1,4 +1,4 @@
-// A fresh look at what a QP solver found: whether it solves the problem, or proves that nothing does.
+// Whether what a QP solver found meets the conditions of an optimum, or proves that there is none: from the problem alone.
 #pragma once
 
 #include <algorithm>
@@ -18,21 +18,21 @@ namespace feeler::detail {
 /// A length that no step to a row a that lacks `violation` at x has, in all reason.
 template <RealScalar Scalar>
 Scalar far_away(const Six<Scalar>& a, const Six<Scalar>& x, const Scalar& violation) noexcept {
-  return Scalar(1e6) * (largest_of(x) + violation / size_of(a));
+  return Scalar(1e6) * (norm_inf(x) + violation / norm1(a));
 }
 /// What rounding leaves of a row that is a sum of others.
 template <RealScalar Scalar>
 Scalar allowed_rest(const Six<Scalar>& a) noexcept {
-  return (std::max)(Scalar(1e-12), Scalar(64 * std::numeric_limits<Scalar>::epsilon())) * size_of(a);
+  return (std::max)(Scalar(1e-12), Scalar(64 * std::numeric_limits<Scalar>::epsilon())) * norm1(a);
 }
 
-/// Looks at x and at rows that are said to be active there, by the problem alone.
+/// The conditions of Karush, Kuhn and Tucker at x with rows that are said to be active there, and the certificate of Farkas.
 template <RealScalar Scalar>
-class FreshLook {
+class KktCheck {
  public:
   /// @param bounds    of the rows of the problem [m]
   /// @param accepted  by how much x may lie beside a row [m]
-  FreshLook(const QpProblem<Scalar>& problem, const Scalar* bounds, const Scalar& accepted) noexcept
+  KktCheck(const QpProblem<Scalar>& problem, const Scalar* bounds, const Scalar& accepted) noexcept
       : problem_(problem), bounds_(bounds), accepted_(accepted) {}
 
   /// Whether the active rows or the gradient are off.
@@ -42,16 +42,16 @@ class FreshLook {
   /// @param beside    and lies beside one at most
   /// @param residual  of the gradient, to be found
   template <class Rows, class Multipliers, class Distances>
-  [[gnu::always_inline]] inline bool is_off(const InverseHessian<Scalar>& hessian, const Six<Scalar>& gradient, const Six<Scalar>& x,
-                                            const Rows& rows, const Multipliers& multipliers, const Six<Scalar>& force, const Distances& lacking,
-                                            const Scalar& beside, Six<Scalar>& residual) const noexcept {
+  [[gnu::always_inline]] inline bool fails(const InverseHessian<Scalar>& hessian, const Six<Scalar>& gradient, const Six<Scalar>& x, const Rows& rows,
+                                           const Multipliers& multipliers, const Six<Scalar>& force, const Distances& lacking, const Scalar& beside,
+                                           Six<Scalar>& residual) const noexcept {
     const Six<Scalar> bent = hessian.hessian_times(x);
 #pragma GCC unroll 6
     for (std::size_t j = 0; j < 6; ++j) residual[j] = (bent[j] + gradient[j]) - force[j];
-    const Scalar rounding_of_sum = 1024 * std::numeric_limits<Scalar>::epsilon(), off = size_of(residual);
-    const Scalar size = size_of(bent) + size_of(gradient);
+    const Scalar rounding_of_sum = 1024 * std::numeric_limits<Scalar>::epsilon(), off = norm1(residual);
+    const Scalar size = norm1(bent) + norm1(gradient);
     if (beside <= accepted_ && off <= rounding_of_sum * size) return false;
-    return is_off_for_its_size(x, rows, multipliers, lacking, off / rounding_of_sum - size);
+    return fails_for_its_size(x, rows, multipliers, lacking, off / rounding_of_sum - size);
   }
 
   /// Whether row p and active rows, whose sum it is but for a rest, contradict each other; then they are the conflict of the solution.
@@ -67,7 +67,7 @@ class FreshLook {
                         const Six<Scalar>& shares, const Scalar& allowed, QpSolution<Scalar>& solution) const noexcept {
     const bool is_strict = allowed < Scalar(0);
     const Scalar rounding = rounding_at(x);
-    const auto allowed_of = [&](const Six<Scalar>& row) { return is_strict ? Scalar(0) : Scalar(allowed + product(rounding, size_of(row))); };
+    const auto allowed_of = [&](const Six<Scalar>& row) { return is_strict ? Scalar(0) : Scalar(allowed + product(rounding, norm1(row))); };
     Scalar slack = allowed_of(a), violation = bounds_[p] - dot(a, x);
     for (int i = 0; i < rows.size(); ++i) {
       const Six<Scalar> normal = row_of(problem_, rows[i]);
@@ -77,8 +77,8 @@ class FreshLook {
       violation -= product(share, drift);
     }
     // A step some times as long as this one could use the rest; where that is more than rounding leaves, a far longer one.
-    const Scalar reach = is_sum || is_strict ? Scalar(16 * largest_of(x)) : far_away(a, x, violation);
-    if (!(violation > slack + size_of(rest) * reach)) return false;
+    const Scalar reach = is_sum || is_strict ? Scalar(16 * norm_inf(x)) : far_away(a, x, violation);
+    if (!(violation > slack + norm1(rest) * reach)) return false;
     solution.conflict.push_back(p);
     for (int i = 0; i < rows.size(); ++i) {
       if (shares[std::size_t(i)] < -Scalar(1e-9)) solution.conflict.push_back(rows[i]);
@@ -90,12 +90,12 @@ class FreshLook {
   /// What the sizes of the rows excuse is seldom needed.
   /// @param excess  of the residual, in units of its rounding
   template <class Rows, class Multipliers, class Distances>
-  [[gnu::noinline]] bool is_off_for_its_size(const Six<Scalar>& x, const Rows& rows, const Multipliers& multipliers, const Distances& lacking,
-                                             Scalar excess) const noexcept {
+  [[gnu::noinline]] bool fails_for_its_size(const Six<Scalar>& x, const Rows& rows, const Multipliers& multipliers, const Distances& lacking,
+                                            Scalar excess) const noexcept {
     const Scalar rounding = rounding_at(x);
     for (int i = 0; i < rows.size(); ++i) {
       const auto slot = std::size_t(i);
-      const Scalar row_size = size_of(row_of(problem_, rows[i]));
+      const Scalar row_size = norm1(row_of(problem_, rows[i]));
       excess -= product(multipliers[slot], row_size);
       if (magnitude(lacking[slot]) > accepted_ + product(rounding, row_size)) return true;
     }

@@ -1,4 +1,4 @@
-#include "feeler/qp/dual/fresh_look.hpp"
+#include "feeler/qp/dual/kkt_check.hpp"
 
 #include <boost/test/unit_test.hpp>
 
@@ -12,7 +12,7 @@
 #include "support/general_problem.hpp"
 #include "support/random_geometry.hpp"
 
-BOOST_AUTO_TEST_SUITE(fresh_look)
+BOOST_AUTO_TEST_SUITE(kkt_check)
 
 namespace {
 
@@ -21,7 +21,7 @@ using Six = feeler::detail::Six<double>;
 using Vector6 = feeler::Vector6<double>;
 constexpr double accepted = 1e-9;
 
-/// An answer, by another solver, as the look takes it.
+/// An answer, by another solver, as the check takes it.
 struct Answer {
   Six x{}, multipliers{};
   feeler::WarmStart active;
@@ -36,7 +36,7 @@ struct Answer {
     }
   }
 
-  bool is_off(const Problem& problem) const {
+  bool fails(const Problem& problem) const {
     const feeler_test::Quadratic f(problem);
     Six force{}, lacking{}, residual;
     double beside = 0;
@@ -47,8 +47,8 @@ struct Answer {
       beside = std::max(beside, std::abs(lacking[slot]));
       for (int j = 0; j < 6; ++j) force[std::size_t(j)] += multipliers[slot] * problem.rows[row][j];
     }
-    return feeler::detail::FreshLook<double>(problem, problem.bounds.data(), accepted)
-        .is_off(f.hessian, f.gradient, x, active.rows, multipliers, force, lacking, beside, residual);
+    return feeler::detail::KktCheck<double>(problem, problem.bounds.data(), accepted)
+        .fails(f.hessian, f.gradient, x, active.rows, multipliers, force, lacking, beside, residual);
   }
 };
 
@@ -69,7 +69,7 @@ struct Opposed {
     solution = {};
     const Six a{-1.0}, x{1.0};
     const Six rest{-1.0 - share};
-    return feeler::detail::FreshLook<double>(problem, problem.bounds.data(), accepted)
+    return feeler::detail::KktCheck<double>(problem, problem.bounds.data(), accepted)
         .is_contradiction(1, a, rest, rest[0] == 0.0, x, active.rows, Six{share}, allowed, solution);
   }
 };
@@ -84,15 +84,15 @@ BOOST_AUTO_TEST_CASE(an_answer_of_another_solver_is_right_and_one_that_is_moved_
   for (int i = 0; i < 500; ++i) {
     const Problem problem = feeler_test::general_problem(bits, 1 + i % 6, i % 3 == 0);
     const Answer answer(problem);
-    BOOST_TEST(!answer.is_off(problem));
+    BOOST_TEST(!answer.fails(problem));
     Answer moved = answer;
     moved.x[std::size_t(i % 6)] += 1e-6;
-    BOOST_TEST(moved.is_off(problem));
+    BOOST_TEST(moved.fails(problem));
     if (answer.active.rows.empty()) continue;
     ++held;
     Answer pushed = answer;
     pushed.multipliers[0] += 1e-6;
-    BOOST_TEST(pushed.is_off(problem));
+    BOOST_TEST(pushed.fails(problem));
   }
   BOOST_TEST(held > 100);
 }
