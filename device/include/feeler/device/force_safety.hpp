@@ -121,6 +121,7 @@ class ForceSafety {
 
   double share_ = 0;       // of the ramp
   double fade_start_ = 0;  // on the clock of the loop
+  double faded_for_ = 0;   // with the tick to come [s]
   DeviceWrench fading_;    // what it fades from
   DeviceWrench last_;      // pushed in the last tick
   double force_heat_ = 0;
