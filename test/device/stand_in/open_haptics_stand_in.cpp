@@ -66,7 +66,8 @@ void reset() {
   device.calibration_styles = fresh.calibration_styles;
   device.updates_missing = fresh.updates_missing;
   device.error_at_update = device.calibrated_by = 0;
-  device.has_no_temperature = device.never_calls_back = device.own_thread = false;
+  device.has_no_temperature = device.has_no_switches = device.never_calls_back = device.own_thread = false;
+  device.is_in_inkwell = device.is_safety_switch_on = false;
   let_go(first);
   let_go(second);
   motors.told(0);
@@ -157,6 +158,17 @@ void hdDisable(unsigned int capability) {
   if (capability != 0x4000) return;
   if (current == first) device.is_output_on = false;
   let_go(current);
+}
+
+void hdGetBooleanv(unsigned int parameter, unsigned char* value) {
+  const Lock lock(device.mutex);
+  keep_rule(in_frame != nobody);
+  if (device.has_no_switches) return fail(0x103);
+  switch (parameter) {
+    case 0x2001: *value = device.is_safety_switch_on ? 1 : 0; break;
+    case 0x2002: *value = device.is_in_inkwell || (device.calibration_styles & 4) == 0 ? 0 : 1; break;  // 0 too where there is no inkwell
+    default: fail(0x100);
+  }
 }
 
 void hdGetIntegerv(unsigned int parameter, int* value) {

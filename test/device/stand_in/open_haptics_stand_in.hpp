@@ -15,6 +15,8 @@ struct OpenHapticsStandIn {
   // The hand.
   double transform[16] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};  // column by column [mm]
   int buttons = 0;
+  bool is_in_inkwell = false;
+  bool is_safety_switch_on = false;
   double temperatures[6] = {0, 0, 0, 0, 0, 0};
 
   // The device.
@@ -32,6 +34,7 @@ struct OpenHapticsStandIn {
   unsigned int error_in_every_frame = 0;
   unsigned int error_after_push = 0;  // once, found by hdEndFrame
   bool has_no_temperature = false;    // asking is an error
+  bool has_no_switches = false;       // the same
   bool never_calls_back = false;
 
   // The motors, and the rules that were kept.
