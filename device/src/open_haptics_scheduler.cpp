@@ -61,10 +61,9 @@ void Scheduler::leave(const Library& library, Framed& device, const std::string&
     }
   }
   stop(library);
+  if (!has_devices()) unschedule(library);
   if (device.handle() != invalid_handle) disable(library, device.handle());
   if (has_devices()) return run(library);
-  if (is_scheduled_) library.unschedule(callback_);
-  is_scheduled_ = false;
   for (const auto& [other, handle] : kept_) disable(library, handle);
   kept_.clear();
 }
@@ -105,6 +104,11 @@ void Scheduler::run(const Library& library) {
   is_pausing_ = false;
   library.start_scheduler();
   is_running_ = true;
+}
+
+void Scheduler::unschedule(const Library& library) {
+  if (is_scheduled_) library.unschedule(callback_);
+  is_scheduled_ = false;
 }
 
 void Scheduler::stop(const Library& library) {

@@ -54,6 +54,7 @@ class Scheduler {
   bool has_devices() const noexcept;
   bool has_turned() const;
   void run(const Library& library);
+  void unschedule(const Library& library);
   void stop(const Library& library);
 
   std::array<std::atomic<Framed*>, 8> devices_ = {};

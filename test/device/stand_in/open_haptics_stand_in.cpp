@@ -108,10 +108,12 @@ unsigned int hdInitDevice(const char* name) {
   return handle;
 }
 
+// The last one not while its callback is scheduled.
 void hdDisableDevice(unsigned int handle) {
   const Lock lock(device.mutex);
   keep_rule(is_initialised(handle) && !device.is_scheduler_running);
   (handle == first ? device.is_initialised : device.is_second_initialised) = false;
+  keep_rule(callback == nullptr || device.is_initialised || device.is_second_initialised);
 }
 
 void hdMakeCurrentDevice(unsigned int handle) {
