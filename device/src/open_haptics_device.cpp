@@ -128,7 +128,7 @@ class OpenHapticsDriver final : public Device, private Framed {
     library_.make_current_device(handle_);
     if (std::string problem = ask(); !problem.empty()) return problem;
     library_.enable(force_output);
-    scheduler_.join(library_, *this);
+    if (!scheduler_.join(library_, *this)) return "OpenHaptics: eight devices are open, and the servo loop has room for no more: close one of them.";
     return await_session();
   }
 

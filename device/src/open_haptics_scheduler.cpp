@@ -40,13 +40,12 @@ Handle Scheduler::initialise(const Library& library, const std::string& name) {
   return library.init_device(name.empty() ? nullptr : name.c_str());
 }
 
-void Scheduler::join(const Library& library, Framed& device) {
-  for (auto& place : devices_) {
-    if (place.load() != nullptr) continue;
-    place = &device;
-    break;
-  }
+bool Scheduler::join(const Library& library, Framed& device) {
+  const auto place = std::find(devices_.begin(), devices_.end(), nullptr);
+  if (place == devices_.end()) return false;
+  *place = &device;
   run(library);
+  return true;
 }
 
 void Scheduler::leave(const Library& library, Framed& device, const std::string& name) {

@@ -7,8 +7,10 @@
 #include <chrono>
 #include <cmath>
 #include <limits>
+#include <memory>
 #include <string>
 #include <thread>
+#include <vector>
 
 #include "device/scripted_makers.hpp"
 #include "feeler/device/open_haptics_device.hpp"
@@ -540,6 +542,28 @@ BOOST_AUTO_TEST_CASE(a_device_that_cannot_be_opened_leaves_the_other_in_the_serv
     BOOST_TEST(locked(hd, hd.second_force[2]) == 0);
     BOOST_TEST(hd.broken_rules == 0);
   }
+}
+
+BOOST_AUTO_TEST_CASE(a_ninth_device_is_refused_and_leaves_the_others_in_the_servo_loop) {
+  auto& hd = fresh();
+  hd.own_thread = true;
+  const auto other = [](int i) { return feeler::OpenHapticsSettings{{FEELER_OPEN_HAPTICS_STAND_IN}, "other " + std::to_string(i)}; };
+  std::vector<std::unique_ptr<OpenHapticsDevice>> devices;
+  for (int i = 0; i < 8; ++i) {
+    devices.push_back(std::make_unique<OpenHapticsDevice>(i == 0 ? settings() : other(i)));
+    const auto opened = devices.back()->open();
+    BOOST_REQUIRE_MESSAGE(bool(opened), opened.problem);
+  }
+  OpenHapticsDevice ninth(other(8));
+  BOOST_TEST(says(ninth.open().problem, "eight devices are open"));
+  BOOST_TEST(hd.others == 7);
+  {
+    Loop loop(*devices[0]);
+    BOOST_TEST(loop.goes_on());
+  }
+  devices.clear();
+  BOOST_TEST(hd.others == 0);
+  BOOST_TEST(hd.broken_rules == 0);
 }
 
 BOOST_AUTO_TEST_CASE(an_error_of_one_device_does_not_end_the_session_of_the_other) {

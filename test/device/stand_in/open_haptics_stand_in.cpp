@@ -26,7 +26,7 @@ struct ErrorInformation {
 feeler_test::OpenHapticsStandIn device;
 feeler_test::MotorLog motors;
 std::deque<ErrorInformation> errors;
-constexpr unsigned int first = 7, second = 8, nobody = 0xFFFFFFFF;  // handles
+constexpr unsigned int first = 7, second = 8, other = 100, nobody = 0xFFFFFFFF;  // handles; of all others from `other` on
 unsigned int current = nobody;
 unsigned int (*callback)(void*) = nullptr;
 void* callback_argument = nullptr;
@@ -42,7 +42,9 @@ void keep_rule(bool is_kept) {
   if (!is_kept) ++device.broken_rules;
 }
 
-bool is_initialised(unsigned int handle) { return handle == first ? device.is_initialised : handle == second && device.is_second_initialised; }
+bool is_initialised(unsigned int handle) {
+  return handle == first ? device.is_initialised : handle == second ? device.is_second_initialised : handle >= other && handle != nobody;
+}
 
 void fail(unsigned int code, unsigned int handle = current) { errors.push_back({code, -1, handle}); }
 
@@ -74,6 +76,7 @@ void reset() {
   std::fill(device.joint_torque, device.joint_torque + 3, 0.0);
   device.is_output_on = device.is_initialised = device.is_scheduler_running = false;
   device.is_second_initialised = false;
+  device.others = 0;
   device.error_of_second_in_next_frame = 0;
   device.frames = device.starts = device.broken_rules = 0;
   errors.clear();
@@ -96,6 +99,7 @@ feeler_test::OpenHapticsStandIn* feeler_stand_in() {
 unsigned int hdInitDevice(const char* name) {
   const Lock lock(device.mutex);
   keep_rule(!device.is_scheduler_running);
+  if (name != nullptr && std::strncmp(name, "other", 5) == 0) return current = other + unsigned(device.others++);
   const unsigned int handle = name != nullptr && std::strcmp(name, "second") == 0 ? second : first;
   if (handle == second) keep_rule(std::hypot(device.force[0], device.force[1], device.force[2]) == 0);
   const unsigned int error = is_initialised(handle) ? 0x301 : device.error_at_init;
@@ -112,8 +116,9 @@ unsigned int hdInitDevice(const char* name) {
 void hdDisableDevice(unsigned int handle) {
   const Lock lock(device.mutex);
   keep_rule(is_initialised(handle) && !device.is_scheduler_running);
-  (handle == first ? device.is_initialised : device.is_second_initialised) = false;
-  keep_rule(callback == nullptr || device.is_initialised || device.is_second_initialised);
+  if (handle >= other) --device.others;
+  else (handle == first ? device.is_initialised : device.is_second_initialised) = false;
+  keep_rule(callback == nullptr || device.is_initialised || device.is_second_initialised || device.others > 0);
 }
 
 void hdMakeCurrentDevice(unsigned int handle) {
@@ -126,7 +131,7 @@ void hdBeginFrame(unsigned int handle) {
   const Lock lock(device.mutex);
   keep_rule(is_initialised(handle) && in_frame == nobody);
   in_frame = current = handle;
-  if (handle == second) return;
+  if (handle != first) return;
   ++device.frames;
   if (device.error_in_next_frame != 0) fail(std::exchange(device.error_in_next_frame, 0));
   if (device.error_in_every_frame != 0) fail(device.error_in_every_frame);
@@ -178,7 +183,7 @@ void hdGetIntegerv(unsigned int parameter, int* value) {
   keep_rule(in_frame != nobody);
   switch (parameter) {
     case 0x2000: *value = device.buttons; break;
-    case 0x2554: *value = current == second ? 3 : device.output_degrees; break;
+    case 0x2554: *value = current == first ? device.output_degrees : 3; break;
     case 0x2555: *value = int(device.calibration_styles); break;
     case 0x2600: *value = 1000; break;
     default: fail(0x100);
@@ -210,6 +215,7 @@ void hdSetDoublev(unsigned int parameter, const double* values) {
   const Lock lock(device.mutex);
   keep_rule(in_frame != nobody);
   double* axes = nullptr;
+  if (current >= other) return;
   if (current == second) {  // without motors for torques
     if (parameter != 0x2700) return fail(0x100);
     return void(std::copy(values, values + 3, device.second_force));

@@ -55,6 +55,8 @@ struct OpenHapticsStandIn {
   bool is_second_initialised = false;
   unsigned int error_of_second_in_next_frame = 0;  // once, found in the frame of the first
 
+  int others = 0;  // devices named "other…": they are initialised, and that is all
+
   // Runs the scheduled frames once, as the servo thread does.
   void (*tick)() = nullptr;
   bool own_thread = false;  // set before the scheduler starts: frames run on a thread of the stand-in, once a millisecond
