@@ -8,9 +8,11 @@
 #include <functional>
 #include <limits>
 #include <optional>
+#include <stdexcept>
 #include <string>
 #include <thread>
 
+#include "feeler/core/result.hpp"
 #include "feeler/device/device_catalogue.hpp"
 #include "feeler/device/haply_device.hpp"
 #include "feeler/device/servo_loop.hpp"
@@ -155,6 +157,18 @@ BOOST_AUTO_TEST_CASE(what_cannot_start_is_refused_with_a_sentence_and_pushes_not
       BOOST_TEST((device.write(some_push) == DeviceStatus::not_open));
     }
   }
+}
+
+BOOST_AUTO_TEST_CASE(a_period_that_is_none_is_refused) {
+  for (const double period : {0.0, -1e-3, 1e-12, 1.1, std::numeric_limits<double>::infinity(), std::numeric_limits<double>::quiet_NaN()}) {
+    feeler::HaplySettings none;
+    none.period = period;
+    BOOST_CHECK_THROW(HaplyDevice{none}, std::invalid_argument);
+    const auto made = feeler::try_make<HaplyDevice>(none);
+    BOOST_TEST(!made);
+    BOOST_TEST(says(made.reason(), "from 0.00001 to 1 s"));
+  }
+  BOOST_TEST(bool(feeler::try_make<HaplyDevice>(feeler::HaplySettings())));
 }
 
 BOOST_AUTO_TEST_CASE(a_service_that_does_not_run_is_named_with_the_remedy) {
