@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cstdint>
+#include <string>
 
 #include "feeler/device/device.hpp"
 #include "feeler/device/force_limits.hpp"
@@ -91,6 +92,7 @@ class ForceSafety {
 
   /// Refuses (`std::invalid_argument`) what `check` refuses.
   ForceSafety(const ForceLimits& limits, const DeviceSpecification& device);
+  static std::string reason_against(const ForceLimits& limits, const DeviceSpecification& device) { return feeler::reason_against(limits, device); }
 
   /// What to write. No allocation.
   DeviceWrench step(const Tick& tick) noexcept;
