@@ -189,6 +189,9 @@ BOOST_AUTO_TEST_CASE(what_is_referred_to_must_outlive_who_refers_to_it) {
   static_assert(std::is_constructible_v<Renderer, const Mesh&, const Box<double>&> && std::is_constructible_v<Renderer, Mesh&, const Box<double>&>);
   static_assert(!std::is_constructible_v<Renderer, Mesh, const Box<double>&> && !std::is_constructible_v<Renderer, const Mesh, const Box<double>&>);
   static_assert(!std::is_constructible_v<Renderer, const Mesh, const Box<double>&, const Settings<double>&>);
+  using Scene = RenderedScene<Box<double>>;
+  static_assert(std::is_constructible_v<Scene, Mesh&, const Box<double>&, const Settings<double>&>);
+  static_assert(!std::is_constructible_v<Scene, Mesh, const Box<double>&, const Settings<double>&>);
   static_assert(std::is_constructible_v<Recogniser, const Mesh&, const Surface&, const Box<double>&>);
   static_assert(!std::is_constructible_v<Recogniser, const Mesh, const Surface&, const Box<double>&>);
   static_assert(!std::is_constructible_v<Recogniser, const Mesh&, const Surface, const Box<double>&, double>);
