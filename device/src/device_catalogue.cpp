@@ -10,6 +10,7 @@
 #include "feeler/device/haply_device.hpp"
 #include "feeler/device/open_haptics_device.hpp"
 #include "feeler/device/virtuose_device.hpp"
+#include "loop_period.hpp"
 
 namespace feeler {
 namespace {
@@ -72,8 +73,7 @@ std::string reason_against(Maker maker, const DeviceChoice& choice) {
     return "\"" + choice.serial_number + "\" is no serial number of forcedimension: it is a number.";
   }
   if (!is_force_dimension && choice.initialises) return name + " has no device that initialises itself when asked to: leave that out.";
-  if (!(choice.period > 0 && choice.period <= 1)) return "The period of the servo loop must be above 0 and at most 1 s.";
-  return {};
+  return reason_against_period(choice.period);
 }
 
 std::unique_ptr<Device> make_device(Maker maker, const DeviceChoice& choice) {

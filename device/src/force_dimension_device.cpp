@@ -21,7 +21,7 @@ constexpr int time_guard = 1;
 constexpr int motors_saturated = 2;
 
 /// Places in the answer of dhdGetStatus.
-enum Status : int { has_power = 0, waits_for_calibration = 3, pushes = 5, brakes = 6, has_error = 9, force_off_cause = 14 };
+enum Status : int { has_power = 0, waits_for_calibration = 3, pushes = 5, brakes = 6, turns = 7, has_error = 9, force_off_cause = 14 };
 constexpr int most_status = 32;  // 16 or 17, by the version
 
 /// What switched the force off, as the status tells it.
@@ -260,8 +260,9 @@ class ForceDimensionDriver final : public DirectDriver {
     hindrance_ = status[has_power] == 0               ? "The device has no power: check its power supply."
                  : status[has_error] != 0             ? "The device reports an error: switch it off and on."
                  : status[waits_for_calibration] != 0 ? "The device lost its calibration: calibrate it as its manual says, then open it again."
-                 : status[pushes] == 0 || status[brakes] != 0 ? sentence_of_cause(status[force_off_cause])
-                                                              : nullptr;
+                 : status[pushes] == 0 || status[brakes] != 0            ? sentence_of_cause(status[force_off_cause])
+                 : specification().pushes_torque() && status[turns] == 0 ? "The motors of the wrist are off: press the force button of the device."
+                                                                         : nullptr;
     return true;
   }
   const char* hindrance() const noexcept override { return hindrance_; }

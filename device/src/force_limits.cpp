@@ -8,10 +8,6 @@
 namespace feeler {
 namespace {
 
-void require(bool holds, const char* sentence) {
-  if (!holds) refuse(sentence);
-}
-
 // False for a NaN.
 bool is_within(double value, double low, double high) noexcept { return value >= low && value <= high; }
 
@@ -38,30 +34,39 @@ ForceLimits limits_of(const DeviceSpecification& device, double period) {
   return limits;
 }
 
-void check(const ForceLimits& limits, const DeviceSpecification& device) {
-  require(
-      !(device.maximum_force > most_of_any_device) && !(device.maximum_torque > most_of_any_device),
-      "force limits: the maximum force or torque of the device is more than 10000, which is no limit to a hand; give its newtons and newton metres");
-  require(limits.maximum_force > 0 && limits.maximum_force <= device.maximum_force,
-          "force limits: the maximum force must be positive and at most the device's");
-  require(limits.continuous_force > 0 && limits.continuous_force <= limits.maximum_force,
-          "force limits: the continuous force must be positive and at most the maximum; a quarter of it is "
-          "careful");
-  require(is_within(limits.maximum_torque, 0, device.maximum_torque), "force limits: the maximum torque must be at least 0 and at most the device's");
-  require(is_within(limits.continuous_torque, 0, limits.maximum_torque) && (limits.continuous_torque > 0) == (limits.maximum_torque > 0),
-          "force limits: the continuous torque must be positive where torque is pushed, and at most the maximum");
-  require(limits.force_slew > 0 && limits.force_slew <= 1000 * limits.maximum_force,
-          "force limits: the force must take at least a millisecond to grow to its maximum");
-  require(limits.maximum_torque == 0 || (limits.torque_slew > 0 && limits.torque_slew <= 1000 * limits.maximum_torque),
-          "force limits: the torque must take at least a millisecond to grow to its maximum");
-  require(is_within(limits.free_force, 0, 0.1 * limits.maximum_force) && is_within(limits.free_torque, 0, 0.1 * limits.maximum_torque),
-          "force limits: a pose is free below a tenth of the maximum at most");
-  require(is_within(limits.ramp_time, 0.05, 60), "force limits: the ramp must take 0.05 to 60 s");
-  require(is_within(limits.fade_time, 0, 0.002), "force limits: the fade must take 0 to 0.002 s");
-  require(is_within(limits.latest_tick, 0.0005, latest_tick_of_all(device)),
-          "force limits: the latest tick must be 0.0005 s to 25 ticks at the slowest rate of the device");
-  require(is_within(limits.heating_time, 1, 100), "force limits: the motors heat in 1 to 100 s");
-  require(is_within(limits.warm_temperature, 0, 0.95), "force limits: motors are warm from a share of 0 to 0.95 on");
+std::string reason_against(const ForceLimits& limits, const DeviceSpecification& device) {
+  struct Rule {
+    bool is_kept;
+    const char* sentence;
+  };
+  for (const auto& [is_kept, sentence] : {
+           Rule{!(device.maximum_force > most_of_any_device) && !(device.maximum_torque > most_of_any_device),
+                "the maximum force or torque of the device is more than 10000, which is no limit to a hand; give its newtons and newton metres"},
+           Rule{limits.maximum_force > 0 && limits.maximum_force <= device.maximum_force,
+                "the maximum force must be positive and at most the device's"},
+           Rule{limits.continuous_force > 0 && limits.continuous_force <= limits.maximum_force,
+                "the continuous force must be positive and at most the maximum; a quarter of it is careful"},
+           Rule{is_within(limits.maximum_torque, 0, device.maximum_torque), "the maximum torque must be at least 0 and at most the device's"},
+           Rule{is_within(limits.continuous_torque, 0, limits.maximum_torque) && (limits.continuous_torque > 0) == (limits.maximum_torque > 0),
+                "the continuous torque must be positive where torque is pushed, and at most the maximum"},
+           Rule{limits.force_slew > 0 && limits.force_slew <= 1000 * limits.maximum_force,
+                "the force must take at least a millisecond to grow to its maximum"},
+           Rule{limits.maximum_torque == 0 || (limits.torque_slew > 0 && limits.torque_slew <= 1000 * limits.maximum_torque),
+                "the torque must take at least a millisecond to grow to its maximum"},
+           Rule{is_within(limits.free_force, 0, 0.1 * limits.maximum_force) && is_within(limits.free_torque, 0, 0.1 * limits.maximum_torque),
+                "a pose is free below a tenth of the maximum at most"},
+           Rule{is_within(limits.ramp_time, 0.05, 60), "the ramp must take 0.05 to 60 s"},
+           Rule{is_within(limits.fade_time, 0, 0.002), "the fade must take 0 to 0.002 s"},
+           Rule{is_within(limits.latest_tick, 0.0005, latest_tick_of_all(device)),
+                "the latest tick must be 0.0005 s to 25 ticks at the slowest rate of the device"},
+           Rule{is_within(limits.heating_time, 1, 100), "the motors heat in 1 to 100 s"},
+           Rule{is_within(limits.warm_temperature, 0, 0.95), "motors are warm from a share of 0 to 0.95 on"},
+       }) {
+    if (!is_kept) return std::string("force limits: ") + sentence;
+  }
+  return {};
 }
+
+void check(const ForceLimits& limits, const DeviceSpecification& device) { refuse_for(reason_against(limits, device)); }
 
 }  // namespace feeler

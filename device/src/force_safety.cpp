@@ -100,7 +100,8 @@ DeviceWrench ForceSafety::step(const Tick& tick) noexcept {
     pushed = phase_ == ForcePhase::fading ? faded(tick) : allowed(tick, passing);
   }
 
-  if (!has_pose_ || tick.state.time != pose_time_) renewed_at_ = tick.now;
+  // A clock that was set back must not make an old pose young.
+  if (!has_pose_ || tick.state.time != pose_time_ || tick.now < renewed_at_) renewed_at_ = tick.now;
   pose_time_ = tick.state.time;
   has_pose_ = true;
   account(pushed);
@@ -122,7 +123,7 @@ ForceFault ForceSafety::passing_fault(const Tick& tick) const noexcept {
   if (!(tick.age <= limits_.latest_tick)) return ForceFault::late_tick;
   if (!has_pose_) return ForceFault::none;
   if (!(tick.state.time - pose_time_ <= limits_.latest_tick)) return ForceFault::late_tick;
-  if (tick.state.time <= pose_time_ && tick.now - renewed_at_ > limits_.latest_tick) return ForceFault::stale_pose;
+  if (tick.state.time <= pose_time_ && !(tick.now - renewed_at_ <= limits_.latest_tick)) return ForceFault::stale_pose;
   return ForceFault::none;
 }
 
@@ -141,14 +142,17 @@ void ForceSafety::interrupt(ForceFault fault, double now) noexcept {
   } else if (phase_ == ForcePhase::ramping || phase_ == ForcePhase::on) {
     fading_ = last_;
     fade_start_ = now;
+    faded_for_ = 0;
     phase_ = ForcePhase::fading;
   }
 }
 
 DeviceWrench ForceSafety::faded(const Tick& tick) noexcept {
-  // What is pushed now lasts until the next tick, and by then it must be gone.
-  const double gone = (tick.now - fade_start_ + tick.period) / limits_.fade_time;
-  if (gone < 1 - 1e-6) return scaled(fading_, 1 - std::max(gone, 0.0));
+  // What is pushed now lasts until the next tick, and by then it must be gone. It goes by the ticks too, so that a clock that stands or is set back
+  // holds nothing.
+  faded_for_ = std::max(faded_for_, tick.now - fade_start_) + tick.period;
+  const double gone = faded_for_ / limits_.fade_time;
+  if (gone < 1 - 1e-6) return scaled(fading_, 1 - gone);
   share_ = 0;
   phase_ = ForcePhase::ramping;
   return {};

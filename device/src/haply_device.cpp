@@ -10,10 +10,12 @@
 #include <utility>
 #include <vector>
 
+#include "feeler/core/requirement.hpp"
 #include "feeler/device/clock.hpp"
 #include "feeler/device/latest_value.hpp"
 #include "feeler/device/wrench_limit.hpp"
 #include "inverse_service.hpp"
+#include "loop_period.hpp"
 
 namespace feeler {
 namespace {
@@ -71,7 +73,9 @@ struct Push {
 
 class HaplyDriver final : public Device, private InverseService::Client {
  public:
-  explicit HaplyDriver(HaplySettings settings) : settings_(std::move(settings)), specification_(specification_of("")) {}
+  explicit HaplyDriver(HaplySettings settings) : settings_(std::move(settings)), specification_(specification_of("")) {
+    refuse_for(HaplyDevice::reason_against(settings_));
+  }
 
   OpenResult open() override {
     if (is_open_) return {};
@@ -335,5 +339,7 @@ class HaplyDriver final : public Device, private InverseService::Client {
 }  // namespace
 
 HaplyDevice::HaplyDevice(HaplySettings settings) : DrivenDevice(std::make_unique<HaplyDriver>(std::move(settings))) {}
+
+std::string HaplyDevice::reason_against(const HaplySettings& settings) { return reason_against_period(settings.period); }
 
 }  // namespace feeler

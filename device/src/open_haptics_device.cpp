@@ -21,7 +21,7 @@ namespace {
 using namespace open_haptics;
 
 constexpr int patience = 2;            // frames without a new wrench before the device goes silent
-constexpr double longest_pause = 0.1;  // without a frame, before it is told [s]
+constexpr double longest_pause = 0.02;  // without a frame, before it is told [s]
 constexpr std::size_t most_motors = 16;
 
 /// What the frame hands to `read`.
@@ -29,6 +29,7 @@ struct Sample {
   DeviceState state;
   double frame_time = 0;  // when it was made, since `open` [s]
   const char* complaint = "";
+  const char* hindrance = nullptr;  // why it must not push now
   std::int64_t errors = 0;  // counted since `open`
   unsigned int calibration = 0;
   bool has_pose = false;
@@ -82,7 +83,7 @@ class OpenHapticsDriver final : public Device, private Framed {
           "again.";
       return DeviceStatus::warning;
     }
-    return complains ? DeviceStatus::warning : DeviceStatus::ok;
+    return complains || sample_.hindrance != nullptr ? DeviceStatus::warning : DeviceStatus::ok;
   }
 
   DeviceStatus write(const DeviceWrench& wrench) noexcept override {
@@ -127,7 +128,7 @@ class OpenHapticsDriver final : public Device, private Framed {
     library_.make_current_device(handle_);
     if (std::string problem = ask(); !problem.empty()) return problem;
     library_.enable(force_output);
-    scheduler_.join(library_, *this);
+    if (!scheduler_.join(library_, *this)) return "OpenHaptics: eight devices are open, and the servo loop has room for no more: close one of them.";
     return await_session();
   }
 
@@ -177,6 +178,10 @@ class OpenHapticsDriver final : public Device, private Framed {
     double temperatures[most_motors] = {};
     library_.get_doubles(motor_temperature, temperatures);
     tells_temperature_ = drain_errors() == success;
+    is_on(current_safety_switch);
+    has_safety_switch_ = drain_errors() == success;
+    is_on(current_inkwell_switch);
+    has_inkwell_ = drain_errors() == success && (unsigned(styles) & inkwell) != 0;
     library_.end_frame(handle_);
     if (const unsigned int error = drain_errors(); error >= first_device_error) {
       return "OpenHaptics: the device does not say what it is: " + text_of(error);
@@ -216,6 +221,7 @@ class OpenHapticsDriver final : public Device, private Framed {
       library_.get_doubles(motor_temperature, temperatures);
       frame_.state.motor_temperature = *std::max_element(temperatures, temperatures + most_motors);
     }
+    look_for_hindrances();
     if (note_errors()) {
       if (!take_pose(transform)) lose("The device reports a pose that is none: check its encoders, then calibrate it.");
       frame_.has_pose = true;
@@ -224,8 +230,9 @@ class OpenHapticsDriver final : public Device, private Framed {
     }
 
     frames_unfed_ = commands_.fetch(command_) ? 0 : frames_unfed_ + 1;
-    const bool is_fed = !must_be_silent && frames_unfed_ <= patience && !frame_.is_lost && command_.errors_known == frame_.errors;
-    push(is_fed ? command_.wrench : DeviceWrench{});
+    const bool may_push = !must_be_silent && !frame_.is_lost && frame_.hindrance == nullptr;
+    const bool is_fed = frames_unfed_ <= patience && command_.errors_known == frame_.errors;
+    push(may_push && is_fed ? command_.wrench : DeviceWrench{});
     library_.end_frame(handle_);
     note_errors();
     frame_.frame_time = time();
@@ -238,6 +245,25 @@ class OpenHapticsDriver final : public Device, private Framed {
   void calibrate() noexcept {
     frame_.calibration = library_.check_calibration();
     if (frame_.calibration == needs_update && calibration_style_ != 0) library_.update_calibration(calibration_style_);
+  }
+
+  /// What switches the motors off behind libHD's back. It counts as an error too: who has not read of it must not push on when it is over.
+  void look_for_hindrances() noexcept {
+    const char* const before = frame_.hindrance;
+    frame_.hindrance = nullptr;
+    if (frame_.calibration != calibrated) return;  // in the inkwell, perhaps
+    if (has_inkwell_ && !is_on(current_inkwell_switch)) frame_.hindrance = "The stylus is in its inkwell: take it out.";
+    else if (has_safety_switch_ && is_on(current_safety_switch))
+      frame_.hindrance = "The safety switch of the device is on: hold the stylus as its manual says.";
+    if (frame_.hindrance == nullptr || frame_.is_lost) return;
+    if (before == nullptr) ++frame_.errors;
+    frame_.complaint = frame_.hindrance;
+  }
+
+  bool is_on(Parameter parameter) noexcept {
+    unsigned char answer = 0;
+    library_.get_booleans(parameter, &answer);
+    return answer != 0;
   }
 
   void push(const DeviceWrench& wrench) noexcept {
@@ -323,6 +349,8 @@ class OpenHapticsDriver final : public Device, private Framed {
   Handle handle_ = invalid_handle;
   bool is_open_ = false;
   bool tells_temperature_ = false;
+  bool has_inkwell_ = false;
+  bool has_safety_switch_ = false;
   unsigned int calibration_style_ = 0;  // 0 where it needs a hand
   std::int64_t opened_at_ = 0;
 

@@ -22,6 +22,7 @@ std::string Library::load(const std::vector<std::string>& candidates) {
            file.find("hdGetErrorString", get_error_string),
            file.find("hdEnable", enable),
            file.find("hdDisable", disable),
+           file.find("hdGetBooleanv", get_booleans),
            file.find("hdGetIntegerv", get_integers),
            file.find("hdGetDoublev", get_doubles),
            file.find("hdGetString", get_string),

@@ -14,6 +14,8 @@ constexpr Handle invalid_handle = 0xFFFFFFFF;
 /// Parameters of hdGet…v and hdSet…v.
 enum Parameter : unsigned int {
   current_buttons = 0x2000,           // int, bit n is button n + 1
+  current_safety_switch = 0x2001,     // boolean: 1 where the device gives no force
+  current_inkwell_switch = 0x2002,    // boolean: 0 with the stylus in its inkwell, where the device gives no force
   current_transform = 0x2052,         // 16 doubles, column by column [mm]
   device_model_type = 0x2501,         // string
   output_degrees = 0x2554,            // int, 3 or 6
@@ -85,6 +87,7 @@ struct Library {
   const char* (*get_error_string)(unsigned int) = nullptr;
   void (*enable)(unsigned int) = nullptr;
   void (*disable)(unsigned int) = nullptr;
+  void (*get_booleans)(unsigned int, unsigned char*) = nullptr;
   void (*get_integers)(unsigned int, int*) = nullptr;
   void (*get_doubles)(unsigned int, double*) = nullptr;
   const char* (*get_string)(unsigned int) = nullptr;

@@ -40,13 +40,12 @@ Handle Scheduler::initialise(const Library& library, const std::string& name) {
   return library.init_device(name.empty() ? nullptr : name.c_str());
 }
 
-void Scheduler::join(const Library& library, Framed& device) {
-  for (auto& place : devices_) {
-    if (place.load() != nullptr) continue;
-    place = &device;
-    break;
-  }
+bool Scheduler::join(const Library& library, Framed& device) {
+  const auto place = std::find(devices_.begin(), devices_.end(), nullptr);
+  if (place == devices_.end()) return false;
+  *place = &device;
   run(library);
+  return true;
 }
 
 void Scheduler::leave(const Library& library, Framed& device, const std::string& name) {
@@ -61,10 +60,9 @@ void Scheduler::leave(const Library& library, Framed& device, const std::string&
     }
   }
   stop(library);
+  if (!has_devices()) unschedule(library);
   if (device.handle() != invalid_handle) disable(library, device.handle());
   if (has_devices()) return run(library);
-  if (is_scheduled_) library.unschedule(callback_);
-  is_scheduled_ = false;
   for (const auto& [other, handle] : kept_) disable(library, handle);
   kept_.clear();
 }
@@ -105,6 +103,11 @@ void Scheduler::run(const Library& library) {
   is_pausing_ = false;
   library.start_scheduler();
   is_running_ = true;
+}
+
+void Scheduler::unschedule(const Library& library) {
+  if (is_scheduled_) library.unschedule(callback_);
+  is_scheduled_ = false;
 }
 
 void Scheduler::stop(const Library& library) {

@@ -40,8 +40,8 @@ class Scheduler {
 
   /// Pauses the loop and initialises a device. @return its handle, or what libHD gives in its place
   Handle initialise(const Library& library, const std::string& name);
-  /// Lets the loop run, with this device in it.
-  void join(const Library& library, Framed& device);
+  /// Lets the loop run, with this device in it. @return false where eight are in it already; it stands still until this device leaves
+  bool join(const Library& library, Framed& device);
   /// Takes a device out, which wants to push nothing any more, and lets the loop run on for the others.
   /// @param name  by which it was initialised
   void leave(const Library& library, Framed& device, const std::string& name);
@@ -54,6 +54,7 @@ class Scheduler {
   bool has_devices() const noexcept;
   bool has_turned() const;
   void run(const Library& library);
+  void unschedule(const Library& library);
   void stop(const Library& library);
 
   std::array<std::atomic<Framed*>, 8> devices_ = {};

@@ -51,14 +51,16 @@ PassivitySettings passivity_of(const DeviceSpecification& device, double period)
   return settings;
 }
 
-PassivityControl::PassivityControl(const PassivitySettings& settings) : settings_(settings) {
+std::string PassivityControl::reason_against(const PassivitySettings& settings) {
   const auto is_amount = [](double value) { return std::isfinite(value) && value >= 0; };
-  if (!is_amount(settings.damping) || !is_amount(settings.rotational_damping) || !is_amount(settings.allowance)) {
-    refuse(
-        "passivity control: dampings and allowance must be finite and not negative; take them from "
-        "passivity_of");
-  }
-  if (settings.delay != 0 && settings.delay != 1) refuse("passivity control: a wrench is pushed 0 or 1 ticks after its write");
+  if (!is_amount(settings.damping) || !is_amount(settings.rotational_damping) || !is_amount(settings.allowance))
+    return "passivity control: dampings and allowance must be finite and not negative; take them from passivity_of";
+  if (settings.delay != 0 && settings.delay != 1) return "passivity control: a wrench is pushed 0 or 1 ticks after its write";
+  return {};
+}
+
+PassivityControl::PassivityControl(const PassivitySettings& settings) : settings_(settings) {
+  refuse_for(reason_against(settings));
   for (std::size_t axis = 0; axis < 6; ++axis) damping_[axis] = axis < 3 ? settings.damping : settings.rotational_damping;
 }
 

@@ -15,18 +15,27 @@ namespace feeler {
 
 ServoLoop::ServoLoop(const ServoSettings& settings, Callback callback, Clock* clock)
     : settings_(settings), callback_(std::move(callback)), clock_(clock ? *clock : monotonic_clock_) {
-  if (!callback_) refuse("servo loop: the callback is empty; give a callable from a ServoTick to whether to go on");
-  if (settings.rate != 0 && !(settings.rate >= 1e-3 && settings.rate <= 1e9)) {
-    refuse("servo loop: the rate must be 0 (as fast as possible) or from 0.001 to 1e9 ticks a second");
-  }
+  refuse_for(reason_against(settings, callback_));
   if (settings.rate > 0) report_.period = std::llround(1e9 / settings.rate);
 }
 
 ServoLoop::ServoLoop(const ServoSettings& settings, Device& device, Render render, Clock* clock)
     : ServoLoop(settings, [this](const ServoTick& tick) { return render_to_device(tick); }, clock) {
-  if (!render) refuse("servo loop: the renderer is empty; give a callable from a ServoTick and a DeviceState to a DeviceWrench");
+  refuse_for(reason_against(settings, device, render));
   device_ = &device;
   render_ = std::move(render);
+}
+
+std::string ServoLoop::reason_against(const ServoSettings& settings, const Callback& callback, const Clock*) {
+  if (!callback) return "servo loop: the callback is empty; give a callable from a ServoTick to whether to go on";
+  if (settings.rate != 0 && !(settings.rate >= 1e-3 && settings.rate <= 1e9))
+    return "servo loop: the rate must be 0 (as fast as possible) or from 0.001 to 1e9 ticks a second";
+  return {};
+}
+
+std::string ServoLoop::reason_against(const ServoSettings& settings, const Device&, const Render& render, const Clock*) {
+  if (!render) return "servo loop: the renderer is empty; give a callable from a ServoTick and a DeviceState to a DeviceWrench";
+  return reason_against(settings, Callback([](const ServoTick&) { return true; }));
 }
 
 ServoLoop::~ServoLoop() {
@@ -34,18 +43,29 @@ ServoLoop::~ServoLoop() {
   if (thread_.joinable()) thread_.join();
 }
 
+double ServoLoop::period() const noexcept { return report_.period > 0 ? double(report_.period) * 1e-9 : 1 / device_->specification().nominal_rate; }
+
+ForceLimits ServoLoop::force_limits() const { return settings_.force_limits.value_or(limits_of(device_->specification(), period())); }
+
+std::string ServoLoop::reason_against_start() const {
+  if (is_started_) return "servo loop: it was started before; make another one to run again";
+  if (device_ == nullptr) return {};
+  const DeviceSpecification& device = device_->specification();
+  if (settings_.rate > 0 && settings_.rate < device.minimum_rate)
+    return "servo loop: the rate is below what the device accepts; see minimum_rate of its specification";
+  const ForceLimits limits = force_limits();
+  if (!(limits.latest_tick > period()))
+    return "servo loop: the latest tick of the force limits must be longer than the period, or every tick is late";
+  std::string reason = feeler::reason_against(limits, device);
+  return !reason.empty() || !settings_.passivity ? reason : PassivityControl::reason_against(*settings_.passivity);
+}
+
 const RealTimeSetup& ServoLoop::start() {
-  if (is_started_) refuse("servo loop: it was started before; make another one to run again");
+  refuse_for(reason_against_start());
   if (device_ != nullptr) {
     const DeviceSpecification& device = device_->specification();
-    if (settings_.rate > 0 && settings_.rate < device.minimum_rate) {
-      refuse("servo loop: the rate is below what the device accepts; see minimum_rate of its specification");
-    }
-    force_tick_.period = report_.period > 0 ? double(report_.period) * 1e-9 : 1 / device.nominal_rate;
-    const ForceLimits limits = settings_.force_limits.value_or(limits_of(device, force_tick_.period));
-    if (!(limits.latest_tick > force_tick_.period)) {
-      refuse("servo loop: the latest tick of the force limits must be longer than the period, or every tick is late");
-    }
+    const ForceLimits limits = force_limits();
+    force_tick_.period = period();
     safety_ = std::make_unique<ForceSafety>(limits, device);
     if (settings_.passivity) passivity_ = std::make_unique<PassivityControl>(*settings_.passivity);
     if (settings_.recorder != nullptr) settings_.recorder->describe(device, limits);

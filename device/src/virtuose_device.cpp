@@ -9,7 +9,9 @@
 #include <utility>
 
 #include "direct_driver.hpp"
+#include "feeler/core/requirement.hpp"
 #include "feeler/device/shared_library.hpp"
+#include "loop_period.hpp"
 #include "maker_frame.hpp"
 
 namespace feeler {
@@ -91,7 +93,9 @@ struct Library {
 
 class VirtuoseDriver final : public DirectDriver {
  public:
-  VirtuoseDriver(VirtuoseSettings settings, Clock* clock) : DirectDriver(virtuose_6d(), clock), settings_(std::move(settings)) {}
+  VirtuoseDriver(VirtuoseSettings settings, Clock* clock) : DirectDriver(virtuose_6d(), clock), settings_(std::move(settings)) {
+    refuse_for(VirtuoseDevice::reason_against(settings_));
+  }
 
  private:
   std::string connect() override {
@@ -230,5 +234,7 @@ class VirtuoseDriver final : public DirectDriver {
 
 VirtuoseDevice::VirtuoseDevice(VirtuoseSettings settings, Clock* clock)
     : DrivenDevice(std::make_unique<VirtuoseDriver>(std::move(settings), clock)) {}
+
+std::string VirtuoseDevice::reason_against(const VirtuoseSettings& settings, const Clock*) { return reason_against_period(settings.period); }
 
 }  // namespace feeler

@@ -13,12 +13,14 @@ using quaternion::conjugate;
 using quaternion::multiply;
 using quaternion::rotate;
 
-WorkspaceMap::WorkspaceMap(const WorkspaceSettings& settings) : settings_(settings) {
-  if (!(settings.scale > 0 && std::isfinite(settings.scale))) refuse("workspace map: the scale must be positive and finite");
+WorkspaceMap::WorkspaceMap(const WorkspaceSettings& settings) : settings_(settings) { refuse_for(reason_against(settings)); }
+
+std::string WorkspaceMap::reason_against(const WorkspaceSettings& settings) {
+  if (!(settings.scale > 0 && std::isfinite(settings.scale))) return "workspace map: the scale must be positive and finite";
   const double* q = settings.scene_from_device;
-  if (!(std::abs(q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3] - 1) <= 2e-6)) {
-    refuse("workspace map: the rotation must be a unit quaternion w, x, y, z");
-  }
+  if (!(std::abs(q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3] - 1) <= 2e-6))
+    return "workspace map: the rotation must be a unit quaternion w, x, y, z";
+  return {};
 }
 
 void WorkspaceMap::place(const DevicePose& device, const DevicePose& scene) noexcept {

@@ -9,20 +9,30 @@
 namespace feeler {
 namespace {
 
-double usable(double rate) {
-  if (!(rate >= 25 && rate <= 10'000))
-    refuse("wrench guard: the rate of the loop must be from 25 to 10000 Hz; a slower one needs a servo loop beside it");
-  return rate;
-}
+/// Of any rate, also one that is refused.
+ForceLimits limits_at(const DeviceSpecification& device, double rate) { return limits_of(device, rate > 0 ? 1 / rate : 0); }
 
 }  // namespace
 
-WrenchGuard::WrenchGuard(const DeviceSpecification& device, double rate) : WrenchGuard(device, rate, limits_of(device, 1 / usable(rate))) {}
+WrenchGuard::WrenchGuard(const DeviceSpecification& device, double rate) : WrenchGuard(device, rate, limits_at(device, rate)) {}
 
 WrenchGuard::WrenchGuard(const DeviceSpecification& device, double rate, const ForceLimits& limits) : safety_(limits, device) {
-  tick_.period = 1 / usable(rate);
-  if (!(limits.latest_tick > tick_.period))
-    refuse("wrench guard: the latest tick of the force limits must be longer than the period of the loop, or every frame is late");
+  refuse_for(reason_against(device, rate, limits));
+  tick_.period = 1 / rate;
+}
+
+std::string WrenchGuard::reason_against(const DeviceSpecification& device, double rate) {
+  return reason_against(device, rate, limits_at(device, rate));
+}
+
+std::string WrenchGuard::reason_against(const DeviceSpecification& device, double rate, const ForceLimits& limits) {
+  std::string reason = feeler::reason_against(limits, device);
+  if (!reason.empty()) return reason;
+  if (!(rate >= 25 && rate <= 10'000))
+    return "wrench guard: the rate of the loop must be from 25 to 10000 Hz; a slower one needs a servo loop beside it";
+  if (!(limits.latest_tick > 1 / rate))
+    return "wrench guard: the latest tick of the force limits must be longer than the period of the loop, or every frame is late";
+  return {};
 }
 
 DeviceWrench WrenchGuard::allowed(const DeviceState& state, const DeviceWrench& wanted, double now, DeviceStatus status) noexcept {

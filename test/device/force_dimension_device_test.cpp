@@ -237,6 +237,7 @@ BOOST_AUTO_TEST_CASE(while_the_device_must_not_push_it_pushes_nothing_and_says_w
       {[](auto& dhd) { dhd.force_off_cause = 5; }, "USB cable"},
       {[](auto& dhd) { dhd.force_off_cause = 6; }, "dead man's switch"},
       {[](auto& dhd) { dhd.is_braking = true; }, "is off: press its force button"},
+      {[](auto& dhd) { dhd.has_wrist_motors_on = false; }, "motors of the wrist are off"},
       {[](auto& dhd) { dhd.has_power = false; }, "no power"},
       {[](auto& dhd) { dhd.has_error = true; }, "reports an error"},
       {[](auto& dhd) { dhd.needs_calibration = true; }, "lost its calibration"},
@@ -254,7 +255,7 @@ BOOST_AUTO_TEST_CASE(while_the_device_must_not_push_it_pushes_nothing_and_says_w
     BOOST_TEST(is_silent(dhd));
     dhd.force_off_cause = 0;
     dhd.is_braking = dhd.has_error = dhd.needs_calibration = false;
-    dhd.has_power = true;
+    dhd.has_power = dhd.has_wrist_motors_on = true;
     BOOST_TEST((device.read(state) == DeviceStatus::ok));
     device.write(some_push);
     BOOST_TEST(!is_silent(dhd));

@@ -155,6 +155,30 @@ BOOST_AUTO_TEST_CASE(errors_that_open_haptics_recovers_from_end_in_silence) {
   }
 }
 
+BOOST_AUTO_TEST_CASE(switches_that_keep_the_motors_of_open_haptics_off_end_in_silence) {
+  for (const auto is_on : {&feeler_test::OpenHapticsStandIn::is_in_inkwell, &feeler_test::OpenHapticsStandIn::is_safety_switch_on}) {
+    const auto outcome = run(
+        [](World& world) {
+          Maker maker = feeler_test::open_haptics(world);
+          maker.hd->calibration_styles = 6;
+          world.is_silent = [&hd = *maker.hd] {
+            return hd.is_in_inkwell || hd.is_safety_switch_on || (feeler_test::is_zero(hd.force) && feeler_test::is_zero(hd.torque));
+          };
+          return maker;
+        },
+        [is_on](Maker& maker, ServoLoop&, World& world) {
+          maker.hd->*is_on = true;
+          world.frame = [&hd = *maker.hd, is_on, frames = 0]() mutable {
+            if (++frames == 20) hd.*is_on = false;  // the stylus is taken out, in contact
+            hd.tick();
+          };
+          return contact;
+        });
+    check_silenced(outcome, ForceFault::device_warning);
+    BOOST_TEST(outcome.report.ticks == last_tick);
+  }
+}
+
 BOOST_AUTO_TEST_CASE(warm_motors_of_open_haptics_end_in_silence) {
   check_silenced(run(&feeler_test::open_haptics,
                      [](Maker& maker, ServoLoop&, World&) {

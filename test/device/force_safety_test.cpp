@@ -264,6 +264,25 @@ BOOST_AUTO_TEST_CASE(a_fade_at_four_kilohertz_takes_no_longer) {
   BOOST_TEST(last == 0);  // written 1.75 ms after the first
 }
 
+BOOST_AUTO_TEST_CASE(a_fade_goes_by_its_ticks_where_the_clock_does_not) {
+  for (const double step : {0.0, -1e-3, -100.0}) {
+    Session session;
+    session.start(force(4));
+    session.tick.period = 0.25e-3;
+    session.tick.state.time += 0.003;  // late
+    double last = 4;
+    for (int i = 0; i < 8; ++i) {
+      session.tick.now += step;
+      session.tick.state.time += 0.25e-3;
+      const double pushed = session.safety.step(session.tick).force[0];
+      BOOST_TEST(pushed == 4 * (7 - i) / 8.0, boost::test_tools::tolerance(1e-9));
+      BOOST_TEST(pushed < last);
+      last = pushed;
+    }
+    BOOST_TEST(last == 0);
+  }
+}
+
 BOOST_AUTO_TEST_CASE(a_device_that_repeats_a_pose_is_let_go_and_comes_back_by_the_ramp) {
   Session session;
   session.start(force(4));

@@ -3,14 +3,17 @@
 #ifdef FEELER_DEVICE_HAPLY
 #include <boost/test/unit_test.hpp>
 
+#include <atomic>
 #include <chrono>
 #include <cmath>
 #include <functional>
 #include <limits>
 #include <optional>
+#include <stdexcept>
 #include <string>
 #include <thread>
 
+#include "feeler/core/result.hpp"
 #include "feeler/device/device_catalogue.hpp"
 #include "feeler/device/haply_device.hpp"
 #include "feeler/device/servo_loop.hpp"
@@ -155,6 +158,18 @@ BOOST_AUTO_TEST_CASE(what_cannot_start_is_refused_with_a_sentence_and_pushes_not
       BOOST_TEST((device.write(some_push) == DeviceStatus::not_open));
     }
   }
+}
+
+BOOST_AUTO_TEST_CASE(a_period_that_is_none_is_refused) {
+  for (const double period : {0.0, -1e-3, 1e-12, 1.1, std::numeric_limits<double>::infinity(), std::numeric_limits<double>::quiet_NaN()}) {
+    feeler::HaplySettings none;
+    none.period = period;
+    BOOST_CHECK_THROW(HaplyDevice{none}, std::invalid_argument);
+    const auto made = feeler::try_make<HaplyDevice>(none);
+    BOOST_TEST(!made);
+    BOOST_TEST(says(made.reason(), "from 0.00001 to 1 s"));
+  }
+  BOOST_TEST(bool(feeler::try_make<HaplyDevice>(feeler::HaplySettings())));
 }
 
 BOOST_AUTO_TEST_CASE(a_service_that_does_not_run_is_named_with_the_remedy) {
@@ -405,31 +420,82 @@ BOOST_AUTO_TEST_CASE(closing_lets_go_and_opening_again_starts_afresh) {
   }
 }
 
-BOOST_AUTO_TEST_CASE(a_servo_loop_pushes_through_the_service_and_ends_with_a_sentence_when_it_is_gone) {
-  HaplyStandIn service;
-  HaplyDevice device(settings(service));
-  BOOST_REQUIRE(bool(device.open()));
-  feeler::ServoSettings servo;
-  servo.real_time.lock_memory = false;  // of this whole test program
-  servo.force_limits = feeler::limits_of(device.specification());
-  servo.force_limits->latest_tick = 0.05;  // the machine of a test may be busy
-  servo.force_limits->ramp_time = 0.05;
-  bool has_pushed = false;
-  const feeler::ServoLoop* self = nullptr;
-  feeler::ServoLoop loop(servo, device, [&](const feeler::ServoTick&, const DeviceState&) {
-    if (!has_pushed && service.pushed() > 1.9) {
-      has_pushed = true;
-      service.die();
+BOOST_AUTO_TEST_CASE(every_fault_of_a_servo_loop_ends_in_silence_at_the_service_and_a_sentence) {
+  using feeler::ForceFault;
+  using feeler::ServoLoop;
+  static constexpr DeviceWrench contact{{0, 2, 0}, {0, 0, 0}};
+  struct Fault {
+    const char* what;
+    std::function<DeviceWrench(HaplyStandIn&, ServoLoop&)> cause;  // by the renderer, while it pushes
+    ForceFault told;
+    const char* words;  // of the report
+    bool ends = false;  // the loop
+    bool comes_back = false;
+  };
+  std::atomic<bool> was_silent = false;
+  const auto with = [](auto change) {
+    return [change](HaplyStandIn& service, ServoLoop&) {
+      HaplyStandIn::World world;
+      change(world);
+      service.set(world);
+      return contact;
+    };
+  };
+  const Fault faults[] = {
+      {"the service dies", [&](auto& service, auto&) { return service.die(), contact; }, ForceFault::device_lost, "closed the connection", true},
+      {"the arm is unplugged", with([](auto& world) { world.is_unplugged = true; }), ForceFault::device_lost, "lost the Inverse3", true},
+      {"the grip sleeps", with([](auto& world) { world.is_grip_awake = false; }), ForceFault::device_warning, "the device complains"},
+      {"the arm has no power", with([](auto& world) { world.has_power = false; }), ForceFault::device_warning, "the device complains"},
+      {"a NaN", [](auto&, auto&) { return DeviceWrench{{0, std::numeric_limits<double>::quiet_NaN(), 0}, {0, 0, 0}}; }, ForceFault::not_finite,
+       "was not finite"},
+      {"an emergency stop", [&](auto&, auto& loop) { return loop.stop_force(), contact; }, ForceFault::emergency_stop, "stopped the force"},
+      {"the renderer throws", [](auto&, auto&) -> DeviceWrench { throw std::runtime_error("out of ideas"); }, ForceFault::none, "out of ideas", true},
+      {"the renderer hangs",
+       [&](auto& service, auto&) {
+         std::this_thread::sleep_for(std::chrono::milliseconds(100));
+         was_silent = service.is_silent();
+         return contact;
+       },
+       ForceFault::late_tick, "a tick was late", false, true},
+  };
+  for (const Fault& fault : faults) {
+    BOOST_TEST_CONTEXT(fault.what) {
+      HaplyStandIn service;
+      HaplyDevice device(settings(service));
+      BOOST_REQUIRE(bool(device.open()));
+      feeler::ServoSettings servo;
+      servo.real_time.lock_memory = false;  // of this whole test program
+      servo.force_limits = feeler::limits_of(device.specification());
+      servo.force_limits->latest_tick = 0.05;  // the machine of a test may be busy
+      servo.force_limits->ramp_time = 0.05;
+      std::atomic<bool> has_failed = false;
+      ServoLoop* self = nullptr;
+      ServoLoop loop(servo, device, [&](const feeler::ServoTick&, const DeviceState&) {
+        if (has_failed) return contact;
+        if (service.pushed() > 1.9) {
+          has_failed = true;
+          return fault.cause(service, *self);
+        }
+        return self->force_phase() == feeler::ForcePhase::waiting ? DeviceWrench{} : contact;
+      });
+      self = &loop;
+      was_silent = false;
+      loop.start();
+      BOOST_TEST(comes([&] { return has_failed.load(); }));
+      BOOST_TEST(comes([&] { return fault.comes_back ? was_silent.load() : service.is_silent(); }));
+      for (int i = 0; i < 50 && !fault.comes_back; ++i) {
+        BOOST_TEST(service.is_silent());
+        std::this_thread::sleep_for(std::chrono::milliseconds(1));
+      }
+      if (fault.ends) BOOST_TEST(comes([&] { return !loop.is_running(); }));
+      else BOOST_TEST(loop.is_running());
+      loop.stop();
+      const auto& report = loop.wait();
+      if (fault.told != ForceFault::none) BOOST_TEST(report.force.ticks_with[std::size_t(fault.told)] > 0);
+      BOOST_TEST(says(report.problem + to_string(report), fault.words), to_string(report));
+      BOOST_TEST(service.is_silent());
     }
-    return self->force_phase() == feeler::ForcePhase::waiting ? DeviceWrench{} : DeviceWrench{{0, 2, 0}, {0, 0, 0}};
-  });
-  self = &loop;
-  loop.start();
-  BOOST_TEST(comes([&] { return !loop.is_running(); }));
-  loop.stop();
-  const auto& report = loop.wait();
-  BOOST_TEST(has_pushed);
-  BOOST_TEST(says(report.problem, "closed the connection"), report.problem);
+  }
 }
 
 #if FEELER_TEST_COUNTS_ALLOCATIONS

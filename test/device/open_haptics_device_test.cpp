@@ -7,8 +7,10 @@
 #include <chrono>
 #include <cmath>
 #include <limits>
+#include <memory>
 #include <string>
 #include <thread>
+#include <vector>
 
 #include "device/scripted_makers.hpp"
 #include "feeler/device/open_haptics_device.hpp"
@@ -383,6 +385,67 @@ BOOST_AUTO_TEST_CASE(the_hottest_motor_is_told_by_those_that_measure_it) {
   BOOST_TEST(state.motor_temperature == 0);
 }
 
+BOOST_AUTO_TEST_CASE(while_a_switch_keeps_the_motors_off_it_pushes_nothing_and_says_why) {
+  struct Switch {
+    bool feeler_test::OpenHapticsStandIn::* is_on;
+    const char* words;
+  };
+  for (const auto& [is_on, words] : {Switch{&feeler_test::OpenHapticsStandIn::is_in_inkwell, "take it out"},
+                                     Switch{&feeler_test::OpenHapticsStandIn::is_safety_switch_on, "safety switch"}}) {
+    auto& hd = fresh();
+    hd.calibration_styles = 6;
+    OpenHapticsDevice device(settings());
+    BOOST_REQUIRE(bool(device.open()));
+    push_once(device, hd);
+    BOOST_TEST(!is_silent(hd));
+    hd.*is_on = true;
+    DeviceState state;
+    for (int i = 0; i < 5; ++i) {
+      push_once(device, hd);
+      BOOST_TEST(is_silent(hd));
+      BOOST_TEST((device.read(state) == DeviceStatus::warning));
+      BOOST_TEST(says(device.complaint(), words), device.complaint());
+      BOOST_TEST(state.time > 0);  // poses go on
+    }
+    hd.*is_on = false;
+    hd.tick();
+    BOOST_TEST((push_once(device, hd) == DeviceStatus::ok));
+    BOOST_TEST(!is_silent(hd));
+    // On and off again between two ticks of a slow loop: the force that was wished before does not come back.
+    hd.*is_on = true;
+    hd.tick();
+    hd.*is_on = false;
+    device.write(some_push);
+    hd.tick();
+    BOOST_TEST(is_silent(hd));
+    BOOST_TEST((device.read(state) == DeviceStatus::warning));
+  }
+}
+
+BOOST_AUTO_TEST_CASE(a_device_is_opened_and_calibrated_in_its_inkwell) {
+  auto& hd = fresh();
+  hd.calibration_styles = 4;
+  hd.calibration = 0x5001;
+  hd.is_in_inkwell = hd.own_thread = true;
+  OpenHapticsDevice device(settings());
+  const auto opened = device.open();
+  BOOST_TEST(bool(opened), opened.problem);
+  BOOST_TEST(hd.calibrated_by == 4u);
+  DeviceState state;
+  BOOST_TEST((device.read(state) == DeviceStatus::warning));
+}
+
+BOOST_AUTO_TEST_CASE(a_device_without_switches_is_not_asked_for_them) {
+  auto& hd = fresh();
+  hd.has_no_switches = true;
+  OpenHapticsDevice device(settings());
+  BOOST_REQUIRE(bool(device.open()));
+  BOOST_TEST((push_once(device, hd) == DeviceStatus::ok));
+  BOOST_TEST(!is_silent(hd));
+  DeviceState state;
+  BOOST_TEST((device.read(state) == DeviceStatus::ok));
+}
+
 BOOST_AUTO_TEST_CASE(the_servo_thread_of_the_library_the_loop_and_a_watcher_get_along) {
   auto& hd = fresh();
   hd.own_thread = true;
@@ -481,6 +544,28 @@ BOOST_AUTO_TEST_CASE(a_device_that_cannot_be_opened_leaves_the_other_in_the_serv
   }
 }
 
+BOOST_AUTO_TEST_CASE(a_ninth_device_is_refused_and_leaves_the_others_in_the_servo_loop) {
+  auto& hd = fresh();
+  hd.own_thread = true;
+  const auto other = [](int i) { return feeler::OpenHapticsSettings{{FEELER_OPEN_HAPTICS_STAND_IN}, "other " + std::to_string(i)}; };
+  std::vector<std::unique_ptr<OpenHapticsDevice>> devices;
+  for (int i = 0; i < 8; ++i) {
+    devices.push_back(std::make_unique<OpenHapticsDevice>(i == 0 ? settings() : other(i)));
+    const auto opened = devices.back()->open();
+    BOOST_REQUIRE_MESSAGE(bool(opened), opened.problem);
+  }
+  OpenHapticsDevice ninth(other(8));
+  BOOST_TEST(says(ninth.open().problem, "eight devices are open"));
+  BOOST_TEST(hd.others == 7);
+  {
+    Loop loop(*devices[0]);
+    BOOST_TEST(loop.goes_on());
+  }
+  devices.clear();
+  BOOST_TEST(hd.others == 0);
+  BOOST_TEST(hd.broken_rules == 0);
+}
+
 BOOST_AUTO_TEST_CASE(an_error_of_one_device_does_not_end_the_session_of_the_other) {
   auto& hd = fresh();
   OpenHapticsDevice one(settings());
@@ -504,7 +589,9 @@ BOOST_AUTO_TEST_CASE(a_servo_loop_that_stands_still_is_told) {
   BOOST_REQUIRE(bool(device.open()));
   DeviceState state;
   BOOST_TEST((device.read(state) == DeviceStatus::ok));
-  world.spend(200);
+  world.spend(15);
+  BOOST_TEST((device.read(state) == DeviceStatus::ok));
+  world.spend(15);
   BOOST_TEST((device.read(state) == DeviceStatus::warning));
   BOOST_TEST(says(device.complaint(), "stands still"));
   hd.tick();

@@ -5,8 +5,10 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <stdexcept>
 #include <string>
 
+#include "feeler/core/result.hpp"
 #include "feeler/device/virtuose_device.hpp"
 #include "stand_in/stand_in.hpp"
 #include "stand_in/virtuose_stand_in.hpp"
@@ -201,6 +203,18 @@ BOOST_AUTO_TEST_CASE(a_pose_that_the_controller_does_not_renew_keeps_its_time) {
   controller.seconds_late = 0;
   device.read(state);
   BOOST_TEST(state.time > last);
+}
+
+BOOST_AUTO_TEST_CASE(a_period_that_is_none_is_refused) {
+  for (const double period : {0.0, -1e-3, 1e-12, 1.1, std::numeric_limits<double>::infinity(), std::numeric_limits<double>::quiet_NaN()}) {
+    auto settings_of_none = settings();
+    settings_of_none.period = period;
+    BOOST_CHECK_THROW(VirtuoseDevice{settings_of_none}, std::invalid_argument);
+    const auto made = feeler::try_make<VirtuoseDevice>(settings_of_none);
+    BOOST_TEST(!made);
+    BOOST_TEST(says(made.reason(), "from 0.00001 to 1 s"));
+  }
+  BOOST_TEST(bool(feeler::try_make<VirtuoseDevice>(settings())));
 }
 
 BOOST_AUTO_TEST_CASE(a_lost_controller_is_a_fault_for_good_and_is_told_to_let_go_as_soon_as_it_listens) {

@@ -49,7 +49,7 @@ struct Engine {
   WrenchGuard guard;
 };
 
-constexpr double rates[] = {60, 90, 250, 1000};  // [Hz]
+constexpr double rates[] = {25, 60, 90, 250, 1000, 10'000};  // [Hz]
 
 }  // namespace
 
@@ -149,19 +149,67 @@ BOOST_AUTO_TEST_CASE(a_frame_that_hangs_takes_the_force_away_even_where_the_devi
         DeviceWrench pushed = engine.guard.allowed(engine.state, bullet, engine.now);
         BOOST_TEST((engine.guard.fault() == ForceFault::late_tick));
         for (int i = 0; i < int(std::ceil(0.002 / engine.period)); ++i) pushed = engine.frame(bullet);
-        BOOST_TEST(length(pushed.force) < 0.3);  // the ramp at most
+        BOOST_TEST(length(pushed.force) < 0.5);  // the ramp at most: at 25 Hz 0.13 of 3.3 N a frame
       }
     }
   }
 }
 
-BOOST_AUTO_TEST_CASE(a_clock_that_stands_or_goes_back_or_is_none_takes_the_force_away) {
-  for (const double step : {0.0, -1.0, nan_number}) {
-    Engine engine(250);
-    BOOST_TEST(!is_silent(engine.touch(bullet, 0.5)));
-    const DeviceWrench pushed = engine.guard.allowed(engine.state, bullet, engine.now + step);
-    BOOST_TEST(is_silent(pushed));
-    BOOST_TEST((engine.guard.fault() == ForceFault::late_tick));
+/// Frames in which a force is gone: the fade of 2 ms, the frame in which it was found out, and one for rounding.
+int frames_of_a_fade(const Engine& engine) { return int(std::ceil(0.002 / engine.period)) + 2; }
+
+BOOST_AUTO_TEST_CASE(a_clock_that_stands_or_is_none_holds_no_force) {
+  for (const double rate : rates) {
+    for (const double step : {0.0, nan_number}) {
+      BOOST_TEST_CONTEXT(rate << " Hz, by " << step) {
+        Engine engine(rate);
+        BOOST_TEST(!is_silent(engine.touch(bullet, 0.5)));
+        for (int i = 0; i < 50; ++i) {
+          engine.state.time += engine.period;
+          const DeviceWrench pushed = engine.guard.allowed(engine.state, bullet, engine.now + step);
+          if (i >= frames_of_a_fade(engine)) BOOST_TEST(is_silent(pushed));
+        }
+        BOOST_TEST((engine.guard.fault() == ForceFault::late_tick));
+      }
+    }
+  }
+}
+
+BOOST_AUTO_TEST_CASE(a_clock_that_is_set_back_holds_no_force) {
+  for (const double rate : rates) {
+    for (int frames_of_fade = 0; frames_of_fade < 3; ++frames_of_fade) {
+      BOOST_TEST_CONTEXT(rate << " Hz, after " << frames_of_fade << " frames of a fade") {
+        Engine engine(rate);
+        const double before = length(engine.touch({{1, 0, 0}, {0, 0, 0}}, 0.5).force);
+        engine.state.time += frames_of_fade > 0 ? 1 : 0;  // the device was away
+        for (int i = 0; i < frames_of_fade; ++i) engine.frame({{1, 0, 0}, {0, 0, 0}});
+        engine.now -= 100;
+        for (int i = 0; i < frames_of_a_fade(engine); ++i) engine.frame({{1, 0, 0}, {0, 0, 0}});
+        BOOST_TEST(length(engine.frame({{1, 0, 0}, {0, 0, 0}}).force) < 0.5 * before);  // the ramp at most
+        BOOST_TEST((engine.guard.phase() == ForcePhase::ramping));
+      }
+    }
+  }
+}
+
+BOOST_AUTO_TEST_CASE(an_old_pose_does_not_become_young_by_a_clock_that_is_set_back_or_was_none) {
+  for (const double rate : rates) {
+    for (const double step : {-100.0, nan_number}) {
+      BOOST_TEST_CONTEXT(rate << " Hz, by " << step) {
+        Engine engine(rate);
+        engine.touch(bullet, 0.5);
+        engine.state.time += step < 0 ? 0 : engine.period;  // the last new pose
+        engine.guard.allowed(engine.state, bullet, engine.now + step);
+        engine.now += step < 0 ? step : 0;
+        const int frames = int(std::ceil(std::max(3 * engine.period, 0.003) / engine.period)) + frames_of_a_fade(engine);
+        for (int i = 0; i < frames + 50; ++i) {
+          engine.now += engine.period;
+          const DeviceWrench pushed = engine.guard.allowed(engine.state, bullet, engine.now);
+          if (i >= frames) BOOST_TEST(is_silent(pushed));
+        }
+        BOOST_TEST((engine.guard.fault() == ForceFault::stale_pose));
+      }
+    }
   }
 }
 

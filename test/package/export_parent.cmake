@@ -2,6 +2,9 @@
 set(common -G ${GENERATOR} -DCMAKE_CXX_COMPILER=${COMPILER} -DCMAKE_BUILD_TYPE=Debug)
 file(REMOVE_RECURSE ${BINARY_DIR})
 foreach(installs OFF ON)
+  # With the device module, which takes long to compile: CMake tells of a target without a package already where it generates.
+  execute_process(COMMAND ${CMAKE_COMMAND} -S ${SOURCE} -B ${BINARY_DIR}/device_${installs} ${common} -DFEELER_SOURCE=${FEELER_SOURCE}
+    -DFEELER_INSTALL=${installs} -DFEELER_BUILD_DEVICE=ON -DFEELER_BUILD_DEMO=OFF COMMAND_ERROR_IS_FATAL ANY)
   set(build ${BINARY_DIR}/build_${installs})
   set(prefix ${BINARY_DIR}/prefix_${installs})
   execute_process(COMMAND ${CMAKE_COMMAND} -S ${SOURCE} -B ${build} ${common} -DFEELER_SOURCE=${FEELER_SOURCE} -DFEELER_INSTALL=${installs}

@@ -7,6 +7,7 @@
 #include <random>
 #include <string>
 
+#include "feeler/core/result.hpp"
 #include "support/allocation_count.hpp"
 #include "support/contact_scenes.hpp"
 #include "support/random_tools.hpp"
@@ -302,6 +303,8 @@ BOOST_AUTO_TEST_CASE(nothing_touches_beyond_the_tolerance_or_where_the_pose_is_n
   BOOST_TEST(recogniser.recognise({{0, 0, 0.1}, Eigen::Quaterniond::Identity()}).size() == 1);
   BOOST_TEST(recogniser.recognise({{std::nan(""), 0, 0.1}, Eigen::Quaterniond::Identity()}).empty());
   BOOST_CHECK_THROW(ContactRecogniser<Box>(mesh, surface, box, 0.0), std::invalid_argument);
+  BOOST_TEST(try_make<ContactRecogniser<Box>>(mesh, surface, box, 0.0).reason().find("not a positive length") != std::string::npos);
+  BOOST_TEST(bool(try_make<ContactRecogniser<Box>>(mesh, surface, box)));
 }
 BOOST_AUTO_TEST_CASE(tools_and_objects_in_float_touch_as_in_double) {
   std::mt19937 bits(6);

@@ -5,11 +5,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <string>
 #include <vector>
 
 #include "scenes/cavity.hpp"
 #include "scenes/plate.hpp"
 #include "scenes/steps.hpp"
+#include "support/refusal.hpp"
 #include "support/rendering.hpp"
 
 BOOST_AUTO_TEST_SUITE(folds)
@@ -43,6 +46,15 @@ TriangleMesh<double> table_edge() {
 }
 
 }  // namespace
+
+BOOST_AUTO_TEST_CASE(a_jump_that_is_no_length_is_refused) {
+  for (const double jump : {-1e-9, std::nan(""), std::numeric_limits<double>::infinity()}) {
+    const std::string sentence = feeler_test::refusal([&] { FoldDetector<double>(Settings<double>(), jump); });
+    BOOST_TEST(sentence.find("not a length") != std::string::npos);
+    BOOST_TEST(try_make<FoldDetector<double>>(Settings<double>(), jump).reason() == sentence);
+  }
+  BOOST_TEST(bool(try_make<FoldDetector<double>>(Settings<double>())));
+}
 
 BOOST_AUTO_TEST_CASE(a_drop_over_an_edge_is_one_fold_as_high_as_the_device_was_deep) {
   const TriangleMesh<double> table = table_edge();

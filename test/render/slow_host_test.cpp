@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <vector>
 
 #include "scenes/terrain.hpp"
@@ -102,6 +103,24 @@ BOOST_AUTO_TEST_CASE(it_does_what_as_many_updates_do_and_ends_within_one_update_
   }
   BOOST_TEST(stopped > 0);
   BOOST_TEST(settled > 0);
+}
+
+BOOST_AUTO_TEST_CASE(whatever_the_work_it_may_take_it_is_one_update_at_least_and_no_sum_overflows) {
+  const auto scene = scenes::terrain(22);
+  const TriangleMesh<double> object(scene.vertices, scene.triangles);
+  for (const int budget : {20, 128, 100'000'000}) {
+    auto settings = scene.settings();
+    settings.work_budget = budget;
+    Renderer renderer(object, std::get<ConvexPolytope<double>>(scene.tool), settings), other = renderer;
+    renderer.reset(scene.start);
+    other.reset(scene.start);
+    for (const int most_work : {std::numeric_limits<int>::min(), -1, 0}) {
+      const Pose<double> haptic = scene.motion(0.01);
+      const int work = other.update(haptic).work;
+      BOOST_TEST(renderer.update_until_converged(haptic, most_work).work == work);
+    }
+    BOOST_TEST(renderer.update_until_converged(scene.motion(0.04), std::numeric_limits<int>::max()).converged());
+  }
 }
 
 BOOST_AUTO_TEST_CASE(without_a_pose_to_go_on_from_or_to_it_is_one_update) {

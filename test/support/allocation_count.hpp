@@ -25,6 +25,7 @@
 #endif
 
 #if FEELER_TEST_COUNTS_ALLOCATIONS
+#include <malloc.h>
 
 namespace feeler_test {
 inline thread_local std::int64_t allocations = 0;
@@ -61,6 +62,12 @@ std::int64_t allocations_during(const Call& call) {
   const std::int64_t before = allocations;
   call();
   return allocations - before;
+}
+
+/// Bytes that the program has from the heap now.
+inline std::int64_t kept_bytes() {
+  const auto now = mallinfo2();
+  return std::int64_t(now.uordblks + now.hblkhd);
 }
 
 /// Whether the count sees what `new` and what Eigen take.

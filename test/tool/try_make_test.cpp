@@ -6,8 +6,10 @@
 #include <string>
 #include <vector>
 
+#include "feeler/object/mesh_assembly.hpp"
 #include "feeler/object/triangle_mesh.hpp"
 #include "feeler/tool/compound_tool.hpp"
+#include "feeler/tool/round_solids.hpp"
 #include "feeler/tool/sphere_swept.hpp"
 #include "support/refusal.hpp"
 
@@ -51,6 +53,39 @@ BOOST_AUTO_TEST_CASE(what_constructors_take_and_refuse_is_made_or_not_for_the_sa
     BOOST_TEST(bool(result) == (count == 1));
     BOOST_TEST((result ? "accepted" : result.reason()) == refusal([&] { Tool tool(pieces); }));
   }
+}
+
+BOOST_AUTO_TEST_CASE(arrays_of_an_engine_are_taken_or_not_for_the_same_reason) {
+  const std::array<float, 9> corners{0, 0, 0, 1, 0, 0, 0, 1, 0};
+  const std::size_t too_many = std::numeric_limits<std::size_t>::max();
+  for (const unsigned index : {2U, 3U, 0xFFFFFFFFU}) {
+    const std::array<unsigned, 3> triangle{0, 1, index};
+    for (const double scale : {1.0, 0.0, not_a_number}) {
+      for (const std::size_t count : {std::size_t(1), too_many}) {
+        for (const float* const vertices : {corners.data(), static_cast<const float*>(nullptr)}) {
+          BOOST_TEST((agrees<TriangleMesh<double>>(vertices, std::size_t(3), triangle.data(), count, scale)));
+          MeshAssembly<double> assembly;
+          const std::string reason = assembly.reason_against(vertices, 3, triangle.data(), count, Pose<double>(), scale);
+          const std::string sentence = refusal([&] { assembly.add(vertices, 3, triangle.data(), count, Pose<double>(), scale); });
+          BOOST_TEST((reason.empty() ? "accepted" : reason) == sentence);
+          BOOST_TEST(assembly.part_count() == (reason.empty() ? 1 : 0));
+        }
+      }
+    }
+  }
+}
+
+BOOST_AUTO_TEST_CASE(round_solids_are_made_or_not_for_the_same_reason) {
+  for (const double length : {0.01, 0.0, -1.0, not_a_number, std::numeric_limits<double>::infinity(), 1e-320}) {
+    for (const int facets : {12, 2, -1, 40'000}) {
+      const auto prism = try_cylinder(length, 0.02, facets);
+      BOOST_TEST((prism ? "accepted" : prism.reason()) == refusal([&] { cylinder(length, 0.02, facets); }));
+      const auto pyramid = try_cone(0.02, length, facets);
+      BOOST_TEST((pyramid ? "accepted" : pyramid.reason()) == refusal([&] { cone(0.02, length, facets); }));
+      BOOST_TEST(bool(prism) == (length == 0.01 && facets == 12));
+    }
+  }
+  BOOST_TEST(try_cone(0.01, 0.02)->vertex_count() == 33);
 }
 
 BOOST_AUTO_TEST_CASE(hulls_are_made_or_not_for_the_same_reason) {

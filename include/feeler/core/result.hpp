@@ -43,8 +43,8 @@ class [[nodiscard]] Result {
 
 /// Makes a T as its constructor does of the same arguments, and where that would refuse them returns the reason: nothing is thrown, nothing aborted.
 ///
-/// For `TriangleMesh`, `Box`, `Segment`, `Point`, `SphereSwept`, `CompoundTool` and `HapticRenderer`; `ConvexPolytope::try_hull_of` and
-/// `CompoundTool::try_hulls_of` make hulls. Memory that runs out is still an exception.
+/// For whatever refuses by a constructor, in the device module too; `ConvexPolytope::try_hull_of`, `CompoundTool::try_hulls_of`, `try_cylinder` and
+/// `try_cone` make hulls. Memory that runs out is still an exception.
 /// @tparam T  has a static `reason_against`
 template <class T, class... Arguments>
 Result<T> try_make(Arguments&&... arguments) {

@@ -35,7 +35,7 @@ class MeshAssembly {
   template <class Number, std::integral Index>
   int add(const Number* vertices, std::size_t vertex_count, const Index* triangles, std::size_t triangle_count, const Pose<Scalar>& pose = {},
           Scalar scale = Scalar(1)) {
-    refuse_for(detail::reason_against_arrays("MeshAssembly", vertices, vertex_count, triangles, triangle_count));
+    refuse_for(detail::reason_against_arrays("MeshAssembly", vertices, vertex_count, triangles, triangle_count));  // before they are looked at
     return add_rows(detail::rows_of_three(vertices, vertex_count), detail::rows_of_three(triangles, triangle_count), pose, scale);
   }
 
@@ -43,6 +43,13 @@ class MeshAssembly {
   std::string reason_against(const Points<Scalar>& vertices, const Triangles& triangles, const Pose<Scalar>& pose = {},
                              Scalar scale = Scalar(1)) const {
     return reason_against_rows(vertices, triangles, pose, scale);
+  }
+  template <class Number, std::integral Index>
+  std::string reason_against(const Number* vertices, std::size_t vertex_count, const Index* triangles, std::size_t triangle_count,
+                             const Pose<Scalar>& pose = {}, Scalar scale = Scalar(1)) const {
+    const std::string reason = detail::reason_against_arrays("MeshAssembly", vertices, vertex_count, triangles, triangle_count);
+    if (!reason.empty()) return reason;
+    return reason_against_rows(detail::rows_of_three(vertices, vertex_count), detail::rows_of_three(triangles, triangle_count), pose, scale);
   }
 
   int part_count() const noexcept { return int(first_triangles_.size()); }

@@ -62,8 +62,13 @@ class ContactRecogniser {
         search_(tool.template cast<Scalar>(), object, surface),
         tool_incidence_(incidence_of(search_.tool())),
         tolerance_(tolerance) {
-    if (!(tolerance > Scalar(0)) || !(tolerance < std::numeric_limits<Scalar>::infinity()))
-      refuse("ContactRecogniser: the tolerance is not a positive length; give some micrometres, such as 2e-6");
+    refuse_for(reason_against(object, surface, tool, tolerance));
+  }
+  /// The sentence with which the constructor refuses what it is given; empty where it does not.
+  static std::string reason_against(const TriangleMesh<MeshScalar>&, const SurfaceFeatures<MeshScalar>&, const Tool_&,
+                                    Scalar tolerance = Scalar(default_contact_tolerance)) {
+    if (tolerance > Scalar(0) && tolerance < std::numeric_limits<Scalar>::infinity()) return {};
+    return "ContactRecogniser: the tolerance is not a positive length; give some micrometres, such as 2e-6";
   }
 
   ContactRecogniser(const TriangleMesh<MeshScalar>&&, const SurfaceFeatures<MeshScalar>&, const Tool_&, Scalar = Scalar(0)) = delete;

@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <limits>
+#include <string>
 
 #include "feeler/core/requirement.hpp"
 #include "feeler/core/scalar.hpp"
@@ -41,8 +42,12 @@ class FoldDetector {
   /// @param least_jump  shorter ones are not told [m]; refused where it is negative or not finite
   explicit FoldDetector(const Settings<Scalar>& settings, Scalar least_jump = Scalar(1e-4))
       : reference_(settings.reference_point), metric_(settings.metric_in_use()), least_jump_(least_jump) {
-    if (!(least_jump >= Scalar(0) && least_jump <= (std::numeric_limits<Scalar>::max)()))
-      refuse("FoldDetector: the least jump is not a length; give the shortest one that is to be told, 1e-4 if in doubt");
+    refuse_for(reason_against(settings, least_jump));
+  }
+  /// The sentence with which the constructor refuses what it is given; empty where it does not.
+  static std::string reason_against(const Settings<Scalar>&, Scalar least_jump = Scalar(1e-4)) {
+    if (least_jump >= Scalar(0) && least_jump <= (std::numeric_limits<Scalar>::max)()) return {};
+    return "FoldDetector: the least jump is not a length; give the shortest one that is to be told, 1e-4 if in doubt";
   }
 
   /// Starts anew, after `HapticRenderer::reset`.

@@ -69,6 +69,7 @@ class RenderedScene {
     clearance_.touching = touching_distance(radius_);
     clearance_.probe = trust_radius() / 4;
   }
+  RenderedScene(const TriangleMesh<MeshScalar>&&, const ToolType&, const Settings<MeshScalar>&) = delete;  // it refers to the object
 
   const TriangleMesh<MeshScalar>& object() const noexcept { return *object_; }
   const Tool& tool() const noexcept { return tool_; }

@@ -39,7 +39,7 @@ struct Settings {
 
   /// Longest motion of any tool point between two linearisations in contact [m]; up to eight times as long where nothing has stopped a few
   /// such motions. More follows a fast hand with fewer iterations, and
-  /// makes one bad linearisation cost more. Less than 1e-6 is refused.
+  /// makes one bad linearisation cost more. 1e-6 to 1.
   Scalar trust_radius = Scalar(4e-4);
 
   /// A step that moves no tool point farther than this, and a tenth of the step before it, ends a tick as converged [m]. 1e-12 to 1e-3.
@@ -51,7 +51,8 @@ struct Settings {
 
   /// Work a tick, in units of one distance query between the tool and a triangle, or one optimisation (with all that goes with it, about 0.7 µs for
   /// 32 vertices). A tick ends within a fifth more than it, on the certified pose that it has, and the next goes on with what it was at. Less bounds
-  /// the worst tick, and lets the tool lag where the solution jumps, or where what is all around the tool takes some ticks to look at.
+  /// the worst tick, and lets the tool lag where the solution jumps, or where what is all around the tool takes some ticks to look at. 1 to
+  /// 1e8.
   int work_budget = 128;
 };
 

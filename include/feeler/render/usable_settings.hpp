@@ -61,15 +61,17 @@ template <RealScalar Scalar>
 std::string reason_against_limits(const Settings<Scalar>& settings) {
   if (!settings.reference_point.allFinite())
     return "HapticRenderer: Settings::reference_point has a NaN or an infinity; give the point of the tool that the hand holds [m]";
-  if (!(settings.trust_radius >= Scalar(1e-6)))
-    return "HapticRenderer: Settings::trust_radius is not a length of at least 1e-06 m; with less the tool only creeps; leave the default of 0.4 mm if in doubt";
+  if (!(settings.trust_radius >= Scalar(1e-6) && settings.trust_radius <= Scalar(1)))
+    return "HapticRenderer: Settings::trust_radius is not a length of 1e-06 to 1 m; with less the tool only creeps, with more no linearisation holds; leave the "
+           "default of 0.4 mm if in doubt";
   if (!(settings.step_tolerance >= Scalar(1e-12) && settings.step_tolerance <= Scalar(1e-3)))
     return "HapticRenderer: Settings::step_tolerance is not a length of 1e-12 to 0.001 m; with less no tick converges, with more the tool stays where it is; leave "
            "the default of 5 µm if in doubt";
   if (settings.maximum_iterations < 1)
     return "HapticRenderer: Settings::maximum_iterations is less than 1, and the tool could not move; give 1 to 32";
-  if (settings.work_budget < 1)
-    return "HapticRenderer: Settings::work_budget is less than 1, and the tool could not move; leave the default if in doubt";
+  if (settings.work_budget < 1 || settings.work_budget > 100'000'000)
+    return "HapticRenderer: Settings::work_budget is not 1 to 100000000; with less the tool could not move, with more a tick may take minutes; leave the default if "
+           "in doubt";
   return {};
 }
 

@@ -5,8 +5,9 @@
 #include <limits>
 #include <numbers>
 #include <string>
+#include <utility>
 
-#include "feeler/core/requirement.hpp"
+#include "feeler/core/result.hpp"
 #include "feeler/core/scalar.hpp"
 #include "feeler/tool/convex_polytope.hpp"
 
@@ -30,16 +31,16 @@ Scalar facet_error(Scalar radius, int facets, Facets side = Facets::inscribed) n
 }
 
 namespace detail {
-/// Refuses what no cylinder or cone has; the name begins the sentence.
+/// What no cylinder or cone has, as a sentence that begins with its name, or nothing.
 template <RealScalar Scalar>
-void check_round_solid(const char* name, Scalar radius, Scalar height, int facets, int most_facets) {
+std::string reason_against_round_solid(const char* name, Scalar radius, Scalar height, int facets, int most_facets) {
   const Scalar infinity = std::numeric_limits<Scalar>::infinity();
   if (!(radius > Scalar(0) && radius < infinity && height > Scalar(0) && height < infinity))
-    refuse(std::string(name) + ": the radius or the height is not a positive length; give two finite lengths");
-  if (facets < 3 || facets > most_facets) {
-    refuse(std::string(name) + ": " + std::to_string(facets) + " facets; give 3 to " + std::to_string(most_facets) +
-           ", as a polytope has no more vertices");
-  }
+    return std::string(name) + ": the radius or the height is not a positive length; give two finite lengths";
+  if (facets < 3 || facets > most_facets)
+    return std::string(name) + ": " + std::to_string(facets) + " facets; give 3 to " + std::to_string(most_facets) +
+           ", as a polytope has no more vertices";
+  return {};
 }
 
 /// Writes a regular polygon about the z axis into rows of `points`.
@@ -62,12 +63,19 @@ void write_polygon(Scalar radius, Scalar z, int facets, Facets side, int first_r
 /// Facets can be felt when the tool rolls; a shaft with round ends is exact as a `Capsule`.
 /// @param facets  3 to 16383
 template <RealScalar Scalar>
-ConvexPolytope<Scalar> cylinder(Scalar radius, Scalar height, int facets = 32, Facets side = Facets::inscribed) {
-  detail::check_round_solid("cylinder", radius, height, facets, ConvexPolytope<Scalar>::maximum_vertex_count / 2);
+Result<ConvexPolytope<Scalar>> try_cylinder(Scalar radius, Scalar height, int facets = 32, Facets side = Facets::inscribed) {
+  using Hull = ConvexPolytope<Scalar>;
+  std::string reason = detail::reason_against_round_solid("cylinder", radius, height, facets, Hull::maximum_vertex_count / 2);
+  if (!reason.empty()) return Result<Hull>::refused(std::move(reason));
   Points<Scalar> points(2 * facets, 3);
   detail::write_polygon<Scalar>(radius, -height / 2, facets, side, 0, points);
   detail::write_polygon<Scalar>(radius, height / 2, facets, side, facets, points);
-  return ConvexPolytope<Scalar>::hull_of(points);
+  return Hull::try_hull_of(points);
+}
+/// The same; refuses where there is a reason.
+template <RealScalar Scalar>
+ConvexPolytope<Scalar> cylinder(Scalar radius, Scalar height, int facets = 32, Facets side = Facets::inscribed) {
+  return try_cylinder(radius, height, facets, side).value();
 }
 
 /// A cone about the z axis of the tool frame, its tip at the origin and its round base at −height [m], as a pyramid with `facets` sides.
@@ -75,12 +83,19 @@ ConvexPolytope<Scalar> cylinder(Scalar radius, Scalar height, int facets = 32, F
 /// Across its axis it is off by at most `facet_error(radius, facets, side)`, at its base; the tip and the base's plane are exact.
 /// @param facets  3 to 32766
 template <RealScalar Scalar>
-ConvexPolytope<Scalar> cone(Scalar radius, Scalar height, int facets = 32, Facets side = Facets::inscribed) {
-  detail::check_round_solid("cone", radius, height, facets, ConvexPolytope<Scalar>::maximum_vertex_count - 1);
+Result<ConvexPolytope<Scalar>> try_cone(Scalar radius, Scalar height, int facets = 32, Facets side = Facets::inscribed) {
+  using Hull = ConvexPolytope<Scalar>;
+  std::string reason = detail::reason_against_round_solid("cone", radius, height, facets, Hull::maximum_vertex_count - 1);
+  if (!reason.empty()) return Result<Hull>::refused(std::move(reason));
   Points<Scalar> points(facets + 1, 3);
   detail::write_polygon<Scalar>(radius, -height, facets, side, 0, points);
   points.row(facets).setZero();
-  return ConvexPolytope<Scalar>::hull_of(points);
+  return Hull::try_hull_of(points);
+}
+/// The same; refuses where there is a reason.
+template <RealScalar Scalar>
+ConvexPolytope<Scalar> cone(Scalar radius, Scalar height, int facets = 32, Facets side = Facets::inscribed) {
+  return try_cone(radius, height, facets, side).value();
 }
 
 }  // namespace feeler

@@ -46,6 +46,7 @@ void reset() {
 }
 
 bool is_any_of(int type, std::initializer_list<int> types) { return std::find(types.begin(), types.end(), type) != types.end(); }
+bool has_active_wrist() { return is_any_of(device.system_type, {104, 105, 108, 109}); }
 
 }  // namespace
 
@@ -88,6 +89,7 @@ int dhdGetStatus(int* status, char id) {
   status[4] = pushes() ? 0 : 1;
   status[5] = pushes() ? 1 : 0;
   status[6] = device.is_braking ? 1 : 0;
+  status[7] = pushes() && device.has_wrist_motors_on && has_active_wrist() ? 1 : 0;
   status[9] = device.has_error ? 1 : 0;
   status[10] = device.compensates_gravity ? 1 : 0;
   status[14] = device.force_off_cause;
@@ -97,7 +99,7 @@ int dhdGetStatus(int* status, char id) {
 int dhdGetDeviceCount() { return device.device_count; }
 int dhdGetSystemType(char id) { return answer_for(id) < 0 ? -1 : device.system_type; }
 bool dhdHasWrist(char) { return !is_any_of(device.system_type, {33, 60, 63, 203, 206}); }
-bool dhdHasActiveWrist(char) { return is_any_of(device.system_type, {104, 105, 108, 109}); }
+bool dhdHasActiveWrist(char) { return has_active_wrist(); }
 
 int dhdGetPositionAndOrientationFrame(double* x, double* y, double* z, double (*frame)[3], char id) {
   if (answer_for(id) < 0) return -1;

@@ -28,6 +28,7 @@ struct ForceDimensionStandIn {
   bool has_power = true;
   bool has_error = false;
   bool is_braking = false;
+  bool has_wrist_motors_on = true;  // while the force is on
   int force_off_cause = 0;       // other than 0: the force is off, whatever was asked for
   bool has_nothing_new = false;  // answers with the time guard
   bool is_saturated = false;

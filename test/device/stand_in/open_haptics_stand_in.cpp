@@ -26,7 +26,7 @@ struct ErrorInformation {
 feeler_test::OpenHapticsStandIn device;
 feeler_test::MotorLog motors;
 std::deque<ErrorInformation> errors;
-constexpr unsigned int first = 7, second = 8, nobody = 0xFFFFFFFF;  // handles
+constexpr unsigned int first = 7, second = 8, other = 100, nobody = 0xFFFFFFFF;  // handles; of all others from `other` on
 unsigned int current = nobody;
 unsigned int (*callback)(void*) = nullptr;
 void* callback_argument = nullptr;
@@ -42,7 +42,9 @@ void keep_rule(bool is_kept) {
   if (!is_kept) ++device.broken_rules;
 }
 
-bool is_initialised(unsigned int handle) { return handle == first ? device.is_initialised : handle == second && device.is_second_initialised; }
+bool is_initialised(unsigned int handle) {
+  return handle == first ? device.is_initialised : handle == second ? device.is_second_initialised : handle >= other && handle != nobody;
+}
 
 void fail(unsigned int code, unsigned int handle = current) { errors.push_back({code, -1, handle}); }
 
@@ -66,13 +68,15 @@ void reset() {
   device.calibration_styles = fresh.calibration_styles;
   device.updates_missing = fresh.updates_missing;
   device.error_at_update = device.calibrated_by = 0;
-  device.has_no_temperature = device.never_calls_back = device.own_thread = false;
+  device.has_no_temperature = device.has_no_switches = device.never_calls_back = device.own_thread = false;
+  device.is_in_inkwell = device.is_safety_switch_on = false;
   let_go(first);
   let_go(second);
   motors.told(0);
   std::fill(device.joint_torque, device.joint_torque + 3, 0.0);
   device.is_output_on = device.is_initialised = device.is_scheduler_running = false;
   device.is_second_initialised = false;
+  device.others = 0;
   device.error_of_second_in_next_frame = 0;
   device.frames = device.starts = device.broken_rules = 0;
   errors.clear();
@@ -95,6 +99,7 @@ feeler_test::OpenHapticsStandIn* feeler_stand_in() {
 unsigned int hdInitDevice(const char* name) {
   const Lock lock(device.mutex);
   keep_rule(!device.is_scheduler_running);
+  if (name != nullptr && std::strncmp(name, "other", 5) == 0) return current = other + unsigned(device.others++);
   const unsigned int handle = name != nullptr && std::strcmp(name, "second") == 0 ? second : first;
   if (handle == second) keep_rule(std::hypot(device.force[0], device.force[1], device.force[2]) == 0);
   const unsigned int error = is_initialised(handle) ? 0x301 : device.error_at_init;
@@ -107,10 +112,13 @@ unsigned int hdInitDevice(const char* name) {
   return handle;
 }
 
+// The last one not while its callback is scheduled.
 void hdDisableDevice(unsigned int handle) {
   const Lock lock(device.mutex);
   keep_rule(is_initialised(handle) && !device.is_scheduler_running);
-  (handle == first ? device.is_initialised : device.is_second_initialised) = false;
+  if (handle >= other) --device.others;
+  else (handle == first ? device.is_initialised : device.is_second_initialised) = false;
+  keep_rule(callback == nullptr || device.is_initialised || device.is_second_initialised || device.others > 0);
 }
 
 void hdMakeCurrentDevice(unsigned int handle) {
@@ -123,7 +131,7 @@ void hdBeginFrame(unsigned int handle) {
   const Lock lock(device.mutex);
   keep_rule(is_initialised(handle) && in_frame == nobody);
   in_frame = current = handle;
-  if (handle == second) return;
+  if (handle != first) return;
   ++device.frames;
   if (device.error_in_next_frame != 0) fail(std::exchange(device.error_in_next_frame, 0));
   if (device.error_in_every_frame != 0) fail(device.error_in_every_frame);
@@ -159,12 +167,23 @@ void hdDisable(unsigned int capability) {
   let_go(current);
 }
 
+void hdGetBooleanv(unsigned int parameter, unsigned char* value) {
+  const Lock lock(device.mutex);
+  keep_rule(in_frame != nobody);
+  if (device.has_no_switches) return fail(0x103);
+  switch (parameter) {
+    case 0x2001: *value = device.is_safety_switch_on ? 1 : 0; break;
+    case 0x2002: *value = device.is_in_inkwell || (device.calibration_styles & 4) == 0 ? 0 : 1; break;  // 0 too where there is no inkwell
+    default: fail(0x100);
+  }
+}
+
 void hdGetIntegerv(unsigned int parameter, int* value) {
   const Lock lock(device.mutex);
   keep_rule(in_frame != nobody);
   switch (parameter) {
     case 0x2000: *value = device.buttons; break;
-    case 0x2554: *value = current == second ? 3 : device.output_degrees; break;
+    case 0x2554: *value = current == first ? device.output_degrees : 3; break;
     case 0x2555: *value = int(device.calibration_styles); break;
     case 0x2600: *value = 1000; break;
     default: fail(0x100);
@@ -196,6 +215,7 @@ void hdSetDoublev(unsigned int parameter, const double* values) {
   const Lock lock(device.mutex);
   keep_rule(in_frame != nobody);
   double* axes = nullptr;
+  if (current >= other) return;
   if (current == second) {  // without motors for torques
     if (parameter != 0x2700) return fail(0x100);
     return void(std::copy(values, values + 3, device.second_force));

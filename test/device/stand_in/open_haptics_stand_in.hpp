@@ -15,6 +15,8 @@ struct OpenHapticsStandIn {
   // The hand.
   double transform[16] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};  // column by column [mm]
   int buttons = 0;
+  bool is_in_inkwell = false;
+  bool is_safety_switch_on = false;
   double temperatures[6] = {0, 0, 0, 0, 0, 0};
 
   // The device.
@@ -32,6 +34,7 @@ struct OpenHapticsStandIn {
   unsigned int error_in_every_frame = 0;
   unsigned int error_after_push = 0;  // once, found by hdEndFrame
   bool has_no_temperature = false;    // asking is an error
+  bool has_no_switches = false;       // the same
   bool never_calls_back = false;
 
   // The motors, and the rules that were kept.
@@ -51,6 +54,8 @@ struct OpenHapticsStandIn {
   double second_force[3] = {0, 0, 0};  // [N]
   bool is_second_initialised = false;
   unsigned int error_of_second_in_next_frame = 0;  // once, found in the frame of the first
+
+  int others = 0;  // devices named "other…": they are initialised, and that is all
 
   // Runs the scheduled frames once, as the servo thread does.
   void (*tick)() = nullptr;

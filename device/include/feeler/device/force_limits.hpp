@@ -1,6 +1,8 @@
 // What a force must keep to between the renderer and the motors.
 #pragma once
 
+#include <string>
+
 #include "feeler/device/device_specification.hpp"
 
 namespace feeler {
@@ -36,5 +38,7 @@ ForceLimits limits_of(const DeviceSpecification& device, double period = 1e-3);
 /// Refuses (`std::invalid_argument`) limits outside their bounds, or above what the device can do, and a device that is said to do more than 10,000 N or
 /// N·m: an infinity limits nothing.
 void(check)(const ForceLimits& limits, const DeviceSpecification& device);  // a macro of engines
+/// The sentence with which `check` refuses; empty where it does not.
+std::string reason_against(const ForceLimits& limits, const DeviceSpecification& device);
 
 }  // namespace feeler

@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cstdint>
+#include <string>
 
 #include "feeler/device/device.hpp"
 #include "feeler/device/force_limits.hpp"
@@ -91,6 +92,7 @@ class ForceSafety {
 
   /// Refuses (`std::invalid_argument`) what `check` refuses.
   ForceSafety(const ForceLimits& limits, const DeviceSpecification& device);
+  static std::string reason_against(const ForceLimits& limits, const DeviceSpecification& device) { return feeler::reason_against(limits, device); }
 
   /// What to write. No allocation.
   DeviceWrench step(const Tick& tick) noexcept;
@@ -121,6 +123,7 @@ class ForceSafety {
 
   double share_ = 0;       // of the ramp
   double fade_start_ = 0;  // on the clock of the loop
+  double faded_for_ = 0;   // with the tick to come [s]
   DeviceWrench fading_;    // what it fades from
   DeviceWrench last_;      // pushed in the last tick
   double force_heat_ = 0;

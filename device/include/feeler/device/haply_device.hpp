@@ -32,7 +32,10 @@ struct HaplySettings {
 /// Needs a build with Boost.Beast and nlohmann's JSON; without them `open` says so.
 class HaplyDevice final : public DrivenDevice {
  public:
+  /// Refuses (`std::invalid_argument`) a period that is not from 0.00001 to 1 s.
   explicit HaplyDevice(HaplySettings settings = {});
+  /// The sentence with which the constructor refuses; empty where it does not. For `try_make`.
+  static std::string reason_against(const HaplySettings& settings = {});
 };
 
 }  // namespace feeler

@@ -29,8 +29,8 @@ struct OpenHapticsSettings {
 /// as joint torques of the gimbal.
 ///
 /// Several devices, each by its name, share that thread. It pauses while a further one is opened: open all of
-/// them before you start a loop. Those that are closed leave the others alone. While no frame comes for a
-/// tenth of a second, `read` is a warning.
+/// them before you start a loop. Those that are closed leave the others alone. While no frame comes for 20 ms, the
+/// stylus is in its inkwell, or the safety switch is on, `read` is a warning and nothing is pushed.
 ///
 /// `open` waits up to a second for the first pose. A device that can calibrate itself does so in its first
 /// frames; one that needs a hand for it is refused, as its poses would be wrong. Its specification is that of

@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cstdint>
+#include <string>
 
 #include "feeler/device/device_specification.hpp"
 #include "feeler/device/device_state.hpp"
@@ -62,6 +63,8 @@ class PassivityControl {
   /// Refuses (`std::invalid_argument`) settings that are negative or not finite, and delays other than 0
   /// and 1.
   explicit PassivityControl(const PassivitySettings& settings);
+  /// The sentence with which the constructor refuses; empty where it does not.
+  static std::string reason_against(const PassivitySettings& settings);
 
   /// The wish with the damping that is due. What is not finite passes unchanged: the safety stops it. No
   /// allocation.

@@ -7,6 +7,7 @@
 #include <latch>
 #include <memory>
 #include <optional>
+#include <string>
 #include <thread>
 
 #include "feeler/device/clock.hpp"
@@ -62,6 +63,9 @@ class ServoLoop {
   /// A loop that renders to a device, which is open before `start` and outlives the loop.
   /// @param clock  outlives the loop; none is CLOCK_MONOTONIC
   ServoLoop(const ServoSettings& settings, Device& device, Render render, Clock* clock = nullptr);
+  /// The sentence with which a constructor refuses; empty where it does not. For `try_make<ServoLoop>`.
+  static std::string reason_against(const ServoSettings& settings, const Callback& callback, const Clock* clock = nullptr);
+  static std::string reason_against(const ServoSettings& settings, const Device& device, const Render& render, const Clock* clock = nullptr);
   /// Stops and waits.
   ~ServoLoop();
   ServoLoop(const ServoLoop&) = delete;
@@ -70,6 +74,8 @@ class ServoLoop {
   /// Starts the thread and returns what the system granted it. Once only: a second call is refused, and so are force
   /// limits that are none and a rate below what the device accepts.
   const RealTimeSetup& start();
+  /// The sentence with which `start` refuses; empty where it does not.
+  std::string reason_against_start() const;
   /// Asks the loop to end after this tick; from any thread, the callback's too. Takes at most one period.
   void stop() noexcept { is_stopping_.store(true, std::memory_order_relaxed); }
   /// Waits for the end. Not from the callback.
@@ -92,6 +98,8 @@ class ServoLoop {
  private:
   void run();
   void loop();
+  double period() const noexcept;
+  ForceLimits force_limits() const;
   bool render_to_device(const ServoTick& tick);
   void end_force() noexcept;
   void watch(double latest_tick);

@@ -28,8 +28,11 @@ struct VirtuoseSettings {
 /// it is: the specification is that of a Virtuose 6D, cut to what SOFA lets it push.
 class VirtuoseDevice final : public DrivenDevice {
  public:
+  /// Refuses (`std::invalid_argument`) a period that is not from 0.00001 to 1 s.
   /// @param clock  stamps the poses, outlives the device; none is CLOCK_MONOTONIC
   explicit VirtuoseDevice(VirtuoseSettings settings = {}, Clock* clock = nullptr);
+  /// The sentence with which the constructor refuses; empty where it does not. For `try_make`.
+  static std::string reason_against(const VirtuoseSettings& settings = {}, const Clock* clock = nullptr);
 };
 
 }  // namespace feeler

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <string>
 
 #include "feeler/device/device_specification.hpp"
 #include "feeler/device/device_state.hpp"
@@ -34,6 +35,8 @@ class WorkspaceMap {
   /// Refuses (`std::invalid_argument`) a scale that is not positive and finite, and a quaternion that is not
   /// a unit one to 1e-6.
   explicit WorkspaceMap(const WorkspaceSettings& settings = {});
+  /// The sentence with which the constructor refuses; empty where it does not.
+  static std::string reason_against(const WorkspaceSettings& settings = {});
 
   /// Puts the scene's pose where the device's is now, both position and orientation.
   void place(const DevicePose& device, const DevicePose& scene) noexcept;

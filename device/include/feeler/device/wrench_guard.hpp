@@ -1,6 +1,8 @@
 // One call for loops that are not ours: an engine's own loop, or that of another haptic library.
 #pragma once
 
+#include <string>
+
 #include "feeler/device/device_state.hpp"
 #include "feeler/device/force_safety.hpp"
 
@@ -18,6 +20,9 @@ class WrenchGuard {
   WrenchGuard(const DeviceSpecification& device, double rate);
   /// The same with limits of your own; they are those of the device otherwise.
   WrenchGuard(const DeviceSpecification& device, double rate, const ForceLimits& limits);
+  /// The sentence with which a constructor refuses; empty where it does not. For `try_make<WrenchGuard>`, in programs without exceptions.
+  static std::string reason_against(const DeviceSpecification& device, double rate);
+  static std::string reason_against(const DeviceSpecification& device, double rate, const ForceLimits& limits);
 
   /// What to push now. Once in each frame, also while nothing is touched. No allocation.
   /// @param state   as the device gave it. `time` is when the pose was taken, on the device's own clock [s]; a pose with the time of the last one is old.
