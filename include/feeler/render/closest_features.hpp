@@ -58,9 +58,10 @@ class ClosestFeaturesFollower {
     if (stage_ == Stage::starting) turn_idly(scene, tick);
     off_ = off_target(scene, pose_);
     if (!is_motion_left_) limits_.reset(scene.trust_radius());
-    if (std::exchange(has_metric_turned_, false) || !aims_at_target()) judge_again(scene);
+    const bool is_new_task = std::exchange(has_metric_turned_, false) || !aims_at_target();
+    if (is_new_task) judge_again(scene);
     if (stage_ == Stage::starting) {
-      iteration_ = {};
+      if (is_new_task || !is_motion_left_) iteration_ = {};  // else what the last iteration told counts in the next tick too
       auto& pairs = linearisation().pairs();
       pairs.age(scene.contact_distance(), pairs.has_no_clearance(scene.clearance().none()) ? Scalar(0) : scene.noticed(), is_motion_left_);
     }
@@ -160,6 +161,7 @@ class ClosestFeaturesFollower {
              !(limits_.trust() < scene.no_motion()));
     if (outcome == Outcome::suspended) ++iteration_.ticks;
     else stage_ = Stage::starting;
+    if (outcome == Outcome::stalled) iteration_ = {};
     if (outcome == Outcome::another || outcome == Outcome::suspended) limits_.carry_over();
     return outcome == Outcome::arrived;
   }
