@@ -20,9 +20,8 @@ namespace feeler {
 
 /// Follows the haptic pose with a working set of triangles and a certificate.
 ///
-/// Each iteration linearises the rows of the working set, solves for a step, linearises again where it ends, and then certifies the whole
-/// motion triangle by triangle. What blocks it joins the working set, and the pose advances as far as the motion is certified. Where the work of a
-/// tick runs out, the next tick goes on at that stage, with the motion that was proposed as long as it still leads towards the hand.
+/// Each iteration linearises the rows of the working set, solves for a step, linearises again where it ends, and certifies the whole motion. What
+/// blocks it joins the working set, and the pose advances as far as is certified. Where the work of a tick runs out, the next one goes on there.
 template <RigidTool ToolType, QpSolver Solver>
 class ClosestFeaturesFollower {
  public:
