@@ -24,8 +24,7 @@
 
 namespace feeler {
 
-/// Distance up to which features count as touching unless told otherwise [m]: twice the margin that the renderer keeps by default, so
-/// that a tool at the margin from two or three walls at right angles touches the edge or corner where they meet.
+/// Up to it features touch by default [m]: twice the renderer's margin, so what is at the margin from walls at right angles touches where they meet.
 inline constexpr double default_contact_tolerance = 2e-6;
 
 /// Recognises principal contacts from geometry alone, whoever found the pose.
@@ -38,10 +37,9 @@ inline constexpr double default_contact_tolerance = 2e-6;
 /// 4. In a valley sharper than the tolerance allows for, a tool vertex or edge that touches all of its faces touches the valley.
 /// 5. Regions: contacts with witnesses less than four tolerances apart are in one region.
 ///
-/// Features smaller than the tolerance are not told apart. Where two faces of the object have one plane but are not connected, or a face
-/// is not convex, a tool edge or face that touches both sides of a gap touches across it.
-/// @tparam Tool_        the tool; narrower scalars than double are widened
-/// @tparam MeshScalar_  of the object
+/// Features smaller than the tolerance are not told apart. A tool edge or face that touches both sides of a gap between faces of one plane, or in one
+/// that is not convex, touches across it.
+/// @tparam Tool_, MeshScalar_  of tool and object; scalars narrower than double are widened
 template <ConvexTool Tool_, RealScalar MeshScalar_ = typename Tool_::Scalar>
 class ContactRecogniser {
  public:
@@ -53,9 +51,8 @@ class ContactRecogniser {
   using Contact = PrincipalContact<Scalar>;
   using Vector = Vector3<Scalar>;
 
-  /// Refers to the object and its features, which must outlive it; copies the tool. Refuses a tolerance that is not positive and finite.
+  /// Allocates. Refers to the object and its features, which must outlive it; copies the tool. Refuses a tolerance that is not positive and finite.
   /// @param tolerance  distance up to which features touch [m]
-  /// @cost  O(features), allocates
   ContactRecogniser(const TriangleMesh<MeshScalar>& object, const SurfaceFeatures<MeshScalar>& surface, const Tool_& tool,
                     Scalar tolerance = Scalar(default_contact_tolerance))
       : surface_(surface),
@@ -70,7 +67,6 @@ class ContactRecogniser {
     if (tolerance > Scalar(0) && tolerance < std::numeric_limits<Scalar>::infinity()) return {};
     return "ContactRecogniser: the tolerance is not a positive length; give some micrometres, such as 2e-6";
   }
-
   ContactRecogniser(const TriangleMesh<MeshScalar>&&, const SurfaceFeatures<MeshScalar>&, const Tool_&, Scalar = Scalar(0)) = delete;
   ContactRecogniser(const TriangleMesh<MeshScalar>&, const SurfaceFeatures<MeshScalar>&&, const Tool_&, Scalar = Scalar(0)) = delete;
 
