@@ -5,7 +5,7 @@
 #include <limits>
 
 #include "feeler/qp/problem.hpp"
-#include "feeler/qp/reference/gram_schmidt.hpp"
+#include "feeler/qp/gram_schmidt.hpp"
 #include "feeler/qp/reference/optimality.hpp"
 #include "feeler/qp/solution.hpp"
 

@@ -6,7 +6,7 @@
 
 #include "feeler/core/index.hpp"
 #include "feeler/core/scalar.hpp"
-#include "feeler/qp/reference/gram_schmidt.hpp"
+#include "feeler/qp/gram_schmidt.hpp"
 
 namespace feeler {
 

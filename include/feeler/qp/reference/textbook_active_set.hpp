@@ -7,7 +7,7 @@
 #include "feeler/core/index.hpp"
 #include "feeler/qp/problem.hpp"
 #include "feeler/qp/qp_solver.hpp"
-#include "feeler/qp/reference/gram_schmidt.hpp"
+#include "feeler/qp/gram_schmidt.hpp"
 #include "feeler/qp/reference/ldlt6.hpp"
 #include "feeler/qp/reference/optimality.hpp"
 #include "feeler/qp/solution.hpp"

@@ -7,11 +7,10 @@
 #include <limits>
 #include <utility>
 
-#include <Eigen/Cholesky>
-#include <Eigen/QR>
-
 #include "feeler/core/index.hpp"
 #include "feeler/core/scalar.hpp"
+#include "feeler/qp/dual/inverse_hessian.hpp"
+#include "feeler/qp/gram_schmidt.hpp"
 #include "feeler/qp/problem.hpp"
 #include "feeler/qp/qp_solver.hpp"
 #include "feeler/qp/warm_start.hpp"
@@ -77,10 +76,6 @@ class ElasticRows {
   }
 
  private:
-  static constexpr int most_rows = QpSolution<Scalar>::active_capacity;
-  using Columns = Eigen::Matrix<Scalar, 6, Eigen::Dynamic, 0, 6, most_rows>;
-  using Weights = Eigen::Matrix<Scalar, Eigen::Dynamic, 1, 0, most_rows, 1>;
-
   struct Row {
     Scalar soft, hard;
     bool is_relaxed;
@@ -92,6 +87,22 @@ class ElasticRows {
     Scalar most;  // that may be needed [m]
     Scalar low = Scalar(0), high = Scalar(0);  // the relaxation lies between [m]
     bool is_least = true;  // with less than the one at hand there is no solution
+  };
+
+  /// Rows that do not depend on each other, but for rounding.
+  struct Independent {
+    static constexpr int most = GramSchmidt<Scalar>::capacity;
+    GramSchmidt<Scalar> basis;
+    std::array<int, std::size_t(most)> rows;
+
+    /// @param image  of the row: itself, or H⁻¹ times it
+    void add(int row, const Vector6<Scalar>& vector, const Vector6<Scalar>& image) noexcept {
+      const auto expansion = basis.expand(vector, image);
+      const Scalar rounding = 16 * std::numeric_limits<Scalar>::epsilon();
+      if (basis.size() == most || !(expansion.free_squared > rounding * rounding * expansion.squared)) return;
+      rows[index(basis.size())] = row;
+      basis.add(expansion);
+    }
   };
 
   /// A solver that knows no warm start does without.
@@ -191,14 +202,16 @@ class ElasticRows {
     const auto& rows = solution.conflict;
     const int last = rows.size() - 1;
     if (last < 1) return Scalar(0);
-    Columns others(6, last);
-    for (int i = 0; i < last; ++i) others.col(i) = problem.rows[index(rows[i])];
-    const Weights y = others.colPivHouseholderQr().solve(-problem.rows[index(rows[last])]);
+    Independent others;
+    for (int i = 0; i < last; ++i) others.add(rows[i], problem.rows[index(rows[i])], problem.rows[index(rows[i])]);
+    const Vector6<Scalar> row = problem.rows[index(rows[last])];
+    const auto along_others = others.basis.expand(row, row).coefficients;
     Scalar lacking = bound(rows[last]), soft = is_soft(rows[last]) ? Scalar(1) : Scalar(0);
-    for (int i = 0; i < last; ++i) {
-      const Scalar weight = (std::max)(y[i], Scalar(0));
-      lacking += weight * bound(rows[i]);
-      if (is_soft(rows[i])) soft += weight;
+    for (int i = 0; i < others.basis.size(); ++i) {
+      const Scalar weight = (std::max)(Scalar(-along_others[index(i)]), Scalar(0));
+      const int k = others.rows[index(i)];
+      lacking += weight * bound(k);
+      if (is_soft(k)) soft += weight;
     }
     return soft > Scalar(0) ? lacking / soft : Scalar(0);
   }
@@ -213,18 +226,23 @@ class ElasticRows {
 
   /// By how much the multipliers of soft rows fall for each unit of ξ, as long as the same rows are active; positive.
   Scalar fall_of_sum(const QpProblem<Scalar>& problem, const QpSolution<Scalar>& solution) const noexcept {
-    const int count = solution.active.size();
-    Columns rows(6, count);
-    Weights soft(count);
-    for (int i = 0; i < count; ++i) {
-      rows.col(i) = problem.rows[index(solution.active[i].row)];
-      soft[i] = is_soft(solution.active[i].row) ? Scalar(1) : Scalar(0);
+    const Scalar none = std::numeric_limits<Scalar>::epsilon();
+    detail::InverseHessian<Scalar> hessian;
+    if (!hessian.factor(problem.hessian)) return none;
+    Independent actives;
+    for (const auto& active : solution.active) {
+      const Vector6<Scalar> row = problem.rows[index(active.row)];
+      detail::Six<Scalar> image;
+      for (int j = 0; j < 6; ++j) image[index(j)] = row[j];
+      image = hessian.solve(image);
+      actives.add(active.row, row, Eigen::Map<const Vector6<Scalar>>(image.data()));
     }
-    const Eigen::LLT<Matrix6<Scalar>> factor(problem.hessian);
-    const Columns whitened = factor.matrixL().solve(rows);
-    const Eigen::Matrix<Scalar, Eigen::Dynamic, Eigen::Dynamic, 0, most_rows, most_rows> delassus = whitened.transpose() * whitened;
-    const Weights change = delassus.colPivHouseholderQr().solve(soft);
-    return (std::max)(soft.dot(change), std::numeric_limits<Scalar>::epsilon());
+    std::array<Scalar, Independent::most> soft{};
+    for (int i = 0; i < actives.basis.size(); ++i) soft[index(i)] = is_soft(actives.rows[index(i)]) ? Scalar(1) : Scalar(0);
+    const auto change = actives.basis.solve(soft);
+    Scalar fall(0);
+    for (int i = 0; i < actives.basis.size(); ++i) fall += soft[index(i)] * change[index(i)];
+    return (std::max)(fall, none);
   }
 
   int size_ = 0;
