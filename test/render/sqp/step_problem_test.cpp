@@ -81,9 +81,9 @@ BOOST_AUTO_TEST_CASE(between_two_walls_a_step_leaves_what_its_certificate_requir
       BentRow floor, ceiling;
       ceiling.normal = -floor.normal;
       floor.gap = ceiling.gap = gap;
-      const double certified_gap = gap > clearance.negligible() ? gap : 0;
-      BOOST_TEST_REQUIRE(problem.add(floor, {certified_gap, is_spare}));
-      BOOST_TEST_REQUIRE(problem.add(ceiling, {certified_gap}));
+      const double required_gap = clearance.to_leave(gap);
+      BOOST_TEST_REQUIRE(problem.add(floor, {required_gap, is_spare}));
+      BOOST_TEST_REQUIRE(problem.add(ceiling, {required_gap}));
       problem.solve_gauss_newton(Metric<double>(), {{0, 0, 1e-3}, Eigen::Vector3d::Zero()}, margin);
       BOOST_TEST_CONTEXT("gap " << gap << (is_spare ? ", spare" : "")) {
         BOOST_TEST(problem.is_relaxed());

@@ -21,8 +21,8 @@ class KeptContacts {
 
   void clear() noexcept { contacts_.clear(); }
   /// @param row            at the start of the motion
-  /// @param certified_gap  separation of its pair there, 0 where that is none [m]
-  void add(const Row& row, Scalar certified_gap) noexcept { contacts_.push_back({row, certified_gap, false}); }
+  /// @param required_gap  `StepProblem::Standing::required_gap` of it [m]
+  void add(const Row& row, Scalar required_gap) noexcept { contacts_.push_back({row, required_gap, false}); }
 
   /// Before another linearisation: no row is in the problem.
   void release() noexcept {
@@ -35,7 +35,7 @@ class KeptContacts {
     for (Contact& contact : contacts_) {
       const Scalar enough = (std::min)(margin, contact.row.gap) / 10;
       if (contact.is_in_problem || !(carried_gap(contact.row, whole) < enough)) continue;
-      contact.is_in_problem = problem.keep(contact.row.carried(so_far()), contact.certified_gap);
+      contact.is_in_problem = problem.keep(contact.row.carried(so_far()), contact.required_gap);
       breaks_any = breaks_any || contact.is_in_problem;
     }
     return breaks_any;
@@ -44,7 +44,7 @@ class KeptContacts {
  private:
   struct Contact {
     Row row;
-    Scalar certified_gap;
+    Scalar required_gap;
     bool is_in_problem;
   };
 

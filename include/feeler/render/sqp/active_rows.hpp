@@ -37,15 +37,15 @@ class ActiveRows {
   const Twist<Scalar>& step() const noexcept { return step_; }
 
   /// Adds the rows, but for those assumed, to a problem that is linearised where the step ended; false if it has them all.
-  /// @param certified_gap_of  separation of a row's pair at the last certified pose, 0 where that is none [m]
-  template <class Problem, class CertifiedGapOf>
-  bool keep_in(Problem& problem, const CertifiedGapOf& certified_gap_of) const noexcept {
+  /// @param required_gap_of  `StepProblem::Standing::required_gap` of a row [m]
+  template <class Problem, class RequiredGapOf>
+  bool keep_in(Problem& problem, const RequiredGapOf& required_gap_of) const noexcept {
     bool adds = false;
     const Displacement<Scalar> motion = step_;
     for (const Stop& stop : stops_) {
       const Row row = stop.row.carried(motion);
       if (row.is_assumed || problem.repeats(row)) continue;
-      adds = problem.keep(row, certified_gap_of(row)) || adds;
+      adds = problem.keep(row, required_gap_of(row)) || adds;
     }
     return adds;
   }

@@ -156,7 +156,7 @@ class Linearisation {
   const auto& stops() const noexcept { return stops_; }
   /// Adds what stopped the last step, but for what was assumed, to the rows where it ended; false if they have it all.
   bool keep_stops(const Scene& scene) noexcept {
-    return stops_.keep_in(problem_, [&](const Row& row) { return scene.clearance().certified(pair_of(row).slack); });
+    return stops_.keep_in(problem_, [&](const Row& row) { return scene.clearance().to_leave(pair_of(row).slack); });
   }
 
   /// Takes the triangles that the contacts of a solution pass over to into the working set, as far as the work goes: the row of one they have left
@@ -265,12 +265,12 @@ class Linearisation {
     return true;
   }
 
-  static Standing standing_of(const Scene& scene, const Pair& pair) noexcept { return {scene.clearance().certified(pair.slack), pair.is_spare()}; }
+  static Standing standing_of(const Scene& scene, const Pair& pair) noexcept { return {scene.clearance().to_leave(pair.slack), pair.is_spare()}; }
 
   /// A contact so close that any motion may break it is kept; where there is no clearance at all, rounding decides which is.
   void keep_if_touching(const Scene& scene, const Row& row, const Pair& pair) noexcept {
     const bool touches = row.gap > scene.margin() / 1000 && row.gap < scene.contact_distance();
-    if (touches && !problem_.is_relaxed() && !row.is_assumed) kept_.add(row, scene.clearance().certified(pair.slack));
+    if (touches && !problem_.is_relaxed() && !row.is_assumed) kept_.add(row, scene.clearance().to_leave(pair.slack));
   }
 
   /// Takes in a triangle on the way of a motion, with the plane that the pair had where that starts.

@@ -21,9 +21,10 @@ namespace feeler {
 /// Solves for one step d of the tool: min f(d) + price · ξ subject to gapₖ + Jₖ d ≥ max(leastₖ, margin − ξ).
 ///
 /// ξ is what is missing of the margin where most is missing (`ElasticRows`). Its price is of the order of the largest contact force, so no step goes
-/// away from the hand for more than the margin is worth. `leastₖ` is the separation of the pair at the last certified pose, or a fifth of the margin
-/// where that is less. That pose meets it, so a step exists. Without clearance it is 0. Many rows ask the same then, and chance would tell which of
-/// them hold the tool: those that have not held it lately are asked for a picometre less, so that the same few hold it.
+/// away from the hand for more than the margin is worth. `leastₖ` is what a step is to leave of the separation of the pair at the last certified pose
+/// (`Clearance::to_leave`), or a fifth of the margin where that is less. That pose meets it, so a step exists. Without clearance it is 0. Many rows ask
+/// the same then, and chance would tell which of them hold the tool: those that have not held it lately are asked for a picometre less, so that the
+/// same few hold it.
 /// @tparam RowType  a `ContactRow`, or one with another curvature
 template <QpSolver Solver, int rows = 128, class RowType = ContactRow<typename Solver::Scalar>>
 class StepProblem {
@@ -35,7 +36,7 @@ class StepProblem {
 
   /// What is known of the pair that a row is of.
   struct Standing {
-    Scalar certified_gap;  ///< separation at the last certified pose, 0 where that is none [m]
+    Scalar required_gap;  ///< `Clearance::to_leave` of the separation at the last certified pose [m]
     bool is_spare = false;  ///< it has not held the tool lately: where there is no clearance others are to hold it
   };
 
@@ -73,8 +74,8 @@ class StepProblem {
     return carried == count;
   }
   /// Appends a row that held where the motion began, to hold where it ends; no other row may follow.
-  bool keep(const Row& row, Scalar certified_gap) noexcept {
-    if (!add(row, {certified_gap})) return false;
+  bool keep(const Row& row, Scalar required_gap) noexcept {
+    if (!add(row, {required_gap})) return false;
     ++kept_;
     return true;
   }
@@ -204,10 +205,10 @@ class StepProblem {
     for (int k = 0; k < rows_.size(); ++k) {
       const Row& row = rows_[k];
       const Standing& standing = standings_[index(k)];
-      const bool yields = standing.is_spare && !(standing.certified_gap > Scalar(0));
+      const bool yields = standing.is_spare && !(standing.required_gap > Scalar(0));
       const Scalar soft = margin - row.gap - (yields ? picometre : Scalar(0));
       problem_.add_row(row.gradient(), soft);
-      elastic_.add(soft, (yields ? -picometre : (std::min)(standing.certified_gap, margin / 5)) - row.gap);
+      elastic_.add(soft, (yields ? -picometre : (std::min)(standing.required_gap, margin / 5)) - row.gap);
     }
   }
 
