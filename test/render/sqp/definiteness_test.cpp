@@ -17,7 +17,7 @@ namespace {
 
 const Vector nothing = Vector::Zero();
 
-WideMatrix random_rotation(std::mt19937& bits) {
+WideMatrix random_turn(std::mt19937& bits) {
   std::normal_distribution<double> normal;
   WideMatrix m;
   for (int i = 0; i < 36; ++i) m.data()[i] = normal(bits);
@@ -48,7 +48,7 @@ BOOST_AUTO_TEST_CASE(it_is_what_the_eigenvalues_say) {
     feeler::Vector6<long double> values;
     for (int k = 0; k < 6; ++k) values[k] = std::abs(share(bits)) + 1e-3;
     if (i % 2 == 0) values[i / 2 % 6] = std::pow(10.0, -1 - i % 5) * share(bits);
-    const WideMatrix axes = random_rotation(bits);
+    const WideMatrix axes = random_turn(bits);
     Matrix h = (axes * values.asDiagonal() * axes.transpose()).cast<double>();
     // Metres beside radians.
     const double arm = i % 3 == 0 ? 1 : i % 3 == 1 ? 0.02 : 1e-4;
