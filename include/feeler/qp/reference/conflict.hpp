@@ -4,8 +4,8 @@
 #include <array>
 #include <limits>
 
-#include "feeler/qp/problem.hpp"
 #include "feeler/qp/gram_schmidt.hpp"
+#include "feeler/qp/problem.hpp"
 #include "feeler/qp/reference/optimality.hpp"
 #include "feeler/qp/solution.hpp"
 

@@ -5,9 +5,9 @@
 #include <limits>
 
 #include "feeler/core/index.hpp"
+#include "feeler/qp/gram_schmidt.hpp"
 #include "feeler/qp/problem.hpp"
 #include "feeler/qp/qp_solver.hpp"
-#include "feeler/qp/gram_schmidt.hpp"
 #include "feeler/qp/reference/ldlt6.hpp"
 #include "feeler/qp/reference/optimality.hpp"
 #include "feeler/qp/solution.hpp"
