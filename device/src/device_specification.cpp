@@ -36,8 +36,8 @@ void run_fast(DeviceSpecification& device) { device.maximum_rate = 4000; }
 }  // namespace
 
 // confirmed: read in a public driver or manual. recalled: from a datasheet, not confirmed. assumed: no
-// source, a plausible value. measured: half of the largest stiffness that is stable in every simulated hand
-// on every scene at 1 kHz (docs/stability.md), where what drivers or makers state is more than that.
+// source, a plausible value. measured: half of the largest stiffness that is stable in every simulated hand on every scene at 1 kHz, where that is
+// less than what drivers or makers state; docs/stability.md says which devices were not tried.
 DeviceSpecification phantom_premium_3_0_6dof() {
   DeviceSpecification device;
   device.name = "Phantom Premium 3.0/6DOF";

@@ -13,6 +13,7 @@
 #include <utility>
 
 #include "feeler/tool/convex_tool.hpp"
+#include "support/random_geometry.hpp"
 
 namespace feeler_test {
 
@@ -37,7 +38,6 @@ void check_tool_laws(const Tool& tool, bool solid = true, unsigned seed = 1) {
 
   // support is a vertex with the largest dot product, to the rounding of a dot product
   std::mt19937 bits(seed);
-  std::normal_distribution<double> normal;
   const auto check_support = [&](const feeler::Vector3<Scalar>& direction) {
     const int found = tool.support(direction);
     BOOST_TEST_REQUIRE((found >= 0 && found < n));
@@ -46,7 +46,7 @@ void check_tool_laws(const Tool& tool, bool solid = true, unsigned seed = 1) {
     BOOST_TEST(wide(direction).dot(wide(tool.vertex(found))) >= best - 4 * eps * size * wide(direction).norm());
     BOOST_TEST(std::abs(static_cast<long double>(feeler::highest_along(tool, direction)) - best) <= 4 * eps * size * wide(direction).norm());
   };
-  for (int i = 0; i < 200; ++i) check_support(feeler::Vector3<Scalar>(Scalar(normal(bits)), Scalar(normal(bits)), Scalar(normal(bits))));
+  for (int i = 0; i < 200; ++i) check_support(random_vector(bits).cast<Scalar>());
   for (int k = 0; k < 3; ++k) {
     check_support(feeler::Vector3<Scalar>::Unit(k));
     check_support(-feeler::Vector3<Scalar>::Unit(k));

@@ -80,7 +80,7 @@ class HapticRenderer {
 
   /// A tick of a slow host: `update` at one pose again and again until it is no more `unconverged`, or until less than a `work_budget` is left.
   /// Between two frames a hand goes farther than one tick follows.
-  /// @param most_work  in the unit of `Settings::work_budget`, about 0.7 µs; it ends within one `update` of that, and of 1e9
+  /// @param most_work  in the unit of `Settings::work_budget`, 0.7 to 1 µs; it ends within one `update` of that, and of 1e9
   /// @return the last tick, with the work and the iterations of all, and the path of the last alone
   /// @cost   noexcept; no allocation, lock, clock or I/O; one `update` at least
   const Tick<Scalar>& update_until_converged(const Pose<Scalar>& haptic_pose, int most_work) noexcept {

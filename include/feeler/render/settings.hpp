@@ -49,7 +49,7 @@ struct Settings {
   /// is left for the next ticks.
   int maximum_iterations = 12;
 
-  /// Work a tick, in units of one distance query between the tool and a triangle, or one optimisation (with all that goes with it, about 0.7 µs for
+  /// Work a tick, in units of one distance query between the tool and a triangle, or one optimisation (with all that goes with it, 0.7 to 1 µs for
   /// 32 vertices). A tick ends within a fifth more than it, on the certified pose that it has, and the next goes on with what it was at. Less bounds
   /// the worst tick, and lets the tool lag where the solution jumps, or where what is all around the tool takes some ticks to look at. 1 to
   /// 1e8.

@@ -8,7 +8,10 @@
 #include <Eigen/Eigenvalues>
 #include <boost/test/unit_test.hpp>
 
+#include "support/random_geometry.hpp"
+
 using feeler::is_positive_definite;
+using feeler_test::unit;
 using Matrix = feeler::Matrix6<double>;
 using Vector = feeler::Vector6<double>;
 using WideMatrix = feeler::Matrix6<long double>;
@@ -18,9 +21,8 @@ namespace {
 const Vector nothing = Vector::Zero();
 
 WideMatrix random_turn(std::mt19937& bits) {
-  std::normal_distribution<double> normal;
   WideMatrix m;
-  for (int i = 0; i < 36; ++i) m.data()[i] = normal(bits);
+  for (int i = 0; i < 36; ++i) m.data()[i] = unit(bits);
   return m.householderQr().householderQ();
 }
 
@@ -42,12 +44,11 @@ BOOST_AUTO_TEST_CASE(it_is_what_the_eigenvalues_say) {
   const auto seed = std::random_device{}();
   BOOST_TEST_MESSAGE("seed " << seed);
   std::mt19937 bits(seed);
-  std::uniform_real_distribution<double> share(-1, 1);
   int definite = 0, indefinite = 0;
   for (int i = 0; i < 4000; ++i) {
     feeler::Vector6<long double> values;
-    for (int k = 0; k < 6; ++k) values[k] = std::abs(share(bits)) + 1e-3;
-    if (i % 2 == 0) values[i / 2 % 6] = std::pow(10.0, -1 - i % 5) * share(bits);
+    for (int k = 0; k < 6; ++k) values[k] = std::abs(unit(bits)) + 1e-3;
+    if (i % 2 == 0) values[i / 2 % 6] = std::pow(10.0, -1 - i % 5) * unit(bits);
     const WideMatrix axes = random_turn(bits);
     Matrix h = (axes * values.asDiagonal() * axes.transpose()).cast<double>();
     // Metres beside radians.
@@ -56,7 +57,7 @@ BOOST_AUTO_TEST_CASE(it_is_what_the_eigenvalues_say) {
     scale.tail<3>().setConstant(arm);
     h = scale.asDiagonal() * h * scale.asDiagonal();
     Vector less = nothing;
-    if (i % 4 < 2) less = h.diagonal().cwiseAbs() * std::abs(share(bits)) / 10;
+    if (i % 4 < 2) less = h.diagonal().cwiseAbs() * std::abs(unit(bits)) / 10;
     const long double least = least_share(h, less);
     if (std::abs(least) < 1e-11L) continue;
     ++(least > 0 ? definite : indefinite);

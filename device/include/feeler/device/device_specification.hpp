@@ -19,8 +19,8 @@ struct DeviceSpecification {
   double maximum_torque = 0;     ///< about its weakest axis [N·m]
   double continuous_torque = 0;  ///< about its weakest axis [N·m]
 
-  // Recommended: of a preset, stable in every simulated hand on every scene at the nominal rate (docs/stability.md). Makers and
-  // drivers state more for some devices.
+  // Recommended: of a preset, stable in every simulated hand on every scene at the nominal rate, but for devices that were not
+  // tried (docs/stability.md). Makers and drivers state more for some devices.
   double stiffness = 0;             ///< that it renders without buzzing [N/m]
   double rotational_stiffness = 0;  ///< that it renders without buzzing [N·m/rad]
 

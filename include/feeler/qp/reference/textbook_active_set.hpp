@@ -24,7 +24,7 @@ namespace feeler {
 ///
 /// Rows are met to `tolerance` [m]. Rows at an angle below about 1e-8 rad to the span of the active ones
 /// count as dependent. Cost: per iteration one pass over the rows and at most six Gram–Schmidt projections;
-/// two to ten times as long as `DualActiveSet`; noexcept, no allocation.
+/// six to fourteen times as long as `DualActiveSet`; noexcept, no allocation.
 template <RealScalar ScalarType>
 class TextbookActiveSet {
  public:

@@ -20,8 +20,8 @@ namespace feeler {
 
 /// Solves for one step d of the tool: min f(d) + price · ξ subject to gapₖ + Jₖ d ≥ max(leastₖ, margin − ξ).
 ///
-/// ξ is what is missing of the margin where most is missing (`ElasticRows`). Its price is of the order of the largest contact force, so no step goes
-/// away from the hand for more than the margin is worth. `leastₖ` is what a step is to leave of the separation of the pair at the last certified pose
+/// ξ is what is missing of the margin where most is missing (`ElasticRows`). Its price is a multiple of the pull of the hand (`set_price`), so no step
+/// goes away from the hand for more than the margin is worth. `leastₖ` is what a step is to leave of the separation of the pair at the last certified pose
 /// (`Clearance::to_leave`), or a fifth of the margin where that is less. That pose meets it, so a step exists. Without clearance it is 0. Many rows ask
 /// the same then, and chance would tell which of them hold the tool: those that have not held it lately are asked for a picometre less, so that the
 /// same few hold it.
