@@ -93,6 +93,25 @@ BOOST_AUTO_TEST_CASE(between_two_walls_a_step_leaves_what_its_certificate_requir
   }
 }
 
+BOOST_AUTO_TEST_CASE(an_overlap_of_rounding_is_not_won_back_where_two_walls_part_metres_away) {
+  // A slot that overlaps the tool by a picometre or two, and widens by a tenth of a picometre a metre: along it there is room for the tool 20 m away.
+  constexpr double margin = 1e-6;
+  for (const double tilt : {1e-14, 1e-13, 1e-12, 1e-11}) {
+    Problem problem;
+    BentRow floor, ceiling;
+    ceiling.normal = Eigen::Vector3d(tilt, 0, -1);
+    floor.gap = ceiling.gap = -1.2e-12;
+    BOOST_TEST_REQUIRE(problem.add(floor, {0.0}));
+    BOOST_TEST_REQUIRE(problem.add(ceiling, {0.0}));
+    const Eigen::Vector3d hand(1e-4, 0, -1e-3);
+    const auto& step = problem.solve_gauss_newton(Metric<double>(), {-hand, Eigen::Vector3d::Zero()}, margin);
+    BOOST_TEST_CONTEXT("tilt " << tilt) {
+      BOOST_TEST(problem.is_optimal());
+      BOOST_TEST(std::abs(step[0] - hand.x()) < 25 * margin);  // what the margin is worth
+    }
+  }
+}
+
 BOOST_AUTO_TEST_CASE(with_the_forces_of_the_last_step_steps_converge_quadratically_without_a_projection) {
   // A point held by a ball, the hand inside it: it comes to rest where the ray from the middle through the hand leaves the ball.
   const double radius = 0.01;

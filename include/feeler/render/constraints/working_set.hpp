@@ -30,6 +30,7 @@ struct WorkingPair {
   PairState state = PairState::left_out;
   bool is_ghost = false;    ///< at the certified pose a neighbour was nearer, and its plane means nothing
   bool keeps_ghost = false; ///< it blocked although its row looked like a ghost: give it a row all the same
+  bool wants_rim = false;   ///< without clearance: it touches, had its rows, and blocked all the same, so the rim of its wall holds the tool
   bool is_filler = false;   ///< its wall is held elsewhere as well: `ContactPatch::is_filler`
 
   /// It holds the tool, or blocks a motion.
@@ -116,7 +117,7 @@ class WorkingSet {
   void age(Scalar contact_distance, Scalar noticed, bool is_motion_left) noexcept {
     for (int i = pairs_.size() - 1; i >= 0; --i) {
       Pair& pair = pairs_[i];
-      if (!is_motion_left) pair.keeps_ghost = false;
+      if (!is_motion_left) pair.keeps_ghost = pair.wants_rim = false;
       ++pair.unused_ticks;
       if (noticed > Scalar(0) && pair.slack < noticed) continue;
       const bool touches = pair.slack < contact_distance && pair.state != PairState::repeats;

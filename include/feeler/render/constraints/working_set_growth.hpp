@@ -30,6 +30,20 @@ bool take_in_noticed(Pairs& pairs, const Scene& scene, const NoticedTriangles& a
   return is_new;
 }
 
+/// Without clearance, where what blocked a motion was there with its rows: asks for what is at the rims of its walls; false if all of it was asked.
+template <class Pairs, class Scene>
+bool want_rims(Pairs& pairs, const Scene& scene, const SweepResult<typename Scene::Scalar>& result) noexcept {
+  if (!pairs.has_no_clearance(scene.clearance().none())) return false;
+  bool is_new = false;
+  for (const auto& blocker : result.blockers) {
+    auto& pair = pairs[pairs.find(blocker.piece, blocker.triangle)];
+    if (pair.wants_rim || scene.object().walls().of_triangle(blocker.triangle) < 0) continue;
+    is_new = pair.wants_rim = true;
+    pair.state = PairState::left_out;  // to be measured again
+  }
+  return is_new;
+}
+
 /// Takes in what blocked a motion; false when another linearisation would find no more than the last, as all of it was there already with rows of its
 /// own, and it is the way that meets it.
 template <class Pairs, class Scene>
@@ -56,7 +70,7 @@ bool take_in_blockers(Pairs& pairs, const Scene& scene, const SweepResult<typena
     }
   }
   // What touches stops the tool before what was left out comes near.
-  return is_new || (meets_left_out && !meets_touching);
+  return is_new || (meets_touching ? want_rims(pairs, scene, result) : meets_left_out);
 }
 
 }  // namespace feeler

@@ -222,15 +222,24 @@ class StepProblem {
   void solve_elastic(const WarmStart& start = {}) noexcept {
     is_solved_ = is_optimal_ = true;
     solves_ = elastic_.solve(solver_, problem_, price_, picometre, allowed_solves_, start, solution_);
-    if (solves_ > 0) return;
-    solves_ = 1;
-    // Rounding or curvature may leave a row short of its hard bound by a hair: stay where rows allow it.
+    if (solves_ > 0 && !goes_too_far()) return;
+    ++solves_;
+    // Rounding or curvature may leave a row short of its hard bound by a hair, which rows that all but contradict each other win back far away or
+    // nowhere: stay where rows allow it.
     for (int k = 0; k < problem_.row_count; ++k) problem_.bounds[index(k)] = (std::min)(problem_.bounds[index(k)], Scalar(0));
     is_optimal_ = solver_.solve(problem_, solution_) == QpStatus::optimal;
     if (!is_optimal_) {
       solution_.step.setZero();
       solution_.active.clear();
     }
+  }
+
+  /// Whether the last step costs more than all the margin that is missing is worth.
+  bool goes_too_far() const noexcept {
+    if (!is_relaxed()) return false;
+    const Vector6<Scalar>& step = solution_.step;
+    const Vector6<Scalar> change = problem_.hessian.template selfadjointView<Eigen::Lower>() * step;
+    return step.dot(change / 2 + problem_.gradient) > price_ * elastic_.relaxation_at_rest();
   }
 
   inline static const Scalar price_per_force = Scalar(24);
