@@ -96,8 +96,6 @@ class CandidateContactsFollower {
   using Search = CombinationSearch<ToolType, Solver, options>;
   using Solution = typename Search::Solution;
 
-  inline static const Scalar resting = Scalar(1e-11);  // a way as short as this is none [m]
-
   /// How far the certificate lets the tool go towards a solution.
   struct Advance {
     const Solution* solution = nullptr;
@@ -106,8 +104,10 @@ class CandidateContactsFollower {
     Scalar length = Scalar(0);  // of the way to the solution [m]
     Scalar moved = Scalar(0);   // of it certified [m]
     bool is_there = false;
-    bool is_at_rest() const noexcept { return length <= resting; }
   };
+
+  /// A way as short as this is none [m].
+  static Scalar resting(const Scene& scene) noexcept { return scene.clearance().negligible(); }
 
   void optimise(const Scene& scene, Tick<MeshScalar>& tick) noexcept {
     search_.solve(scene, regions_, {pose_, start_, target_, reach_, trust_}, tick);
@@ -126,7 +126,7 @@ class CandidateContactsFollower {
       bool is_new = false;
       const Advance best = certify_solutions(scene, is_new, tick);
       if (best.solution == nullptr) return false;
-      if (best.is_at_rest()) {
+      if (best.length <= resting(scene)) {
         active_ = best.solution->active;
         return true;
       }
@@ -137,7 +137,7 @@ class CandidateContactsFollower {
       // Creeping up to what blocks would only use up the clearance.
       if ((best.is_there || best.moved > best.length / 8) && advance(scene, best, tick)) return true;
       trust_ = best.is_there ? (std::min)(2 * trust_, scene.trust_radius()) : (std::min)(trust_, best.length) / 4;
-      if (trust_ < resting) break;
+      if (trust_ < resting(scene)) break;
     }
     return false;
   }
@@ -151,7 +151,7 @@ class CandidateContactsFollower {
     for (const Solution& solution : search_.solutions()) {
       const Twist<Scalar> motion = motion_between(pose_, solution.pose);
       const Scalar length = scene.length_of(motion);
-      if (length <= resting) return {&solution, pose_, Scalar(0), length, Scalar(0), true};
+      if (length <= resting(scene)) return {&solution, pose_, Scalar(0), length, Scalar(0), true};
       const auto result = certificate_.certify(scene, pose_, motion, tick.work, tick.work + scene.settings().work_budget);
       if (!result.blockers.empty()) is_new = regions_.admit(scene, pose_, result, dropped_) || is_new;
       const Pose<Scalar> reached = moved(pose_, motion * (result.is_exhausted ? Scalar(0) : result.time));

@@ -16,6 +16,7 @@
 #include "feeler/qp/problem.hpp"
 #include "feeler/qp/qp_solver.hpp"
 #include "feeler/qp/solution.hpp"
+#include "feeler/qp/unit_of_length.hpp"
 #include "feeler/render/rendered_scene.hpp"
 #include "feeler/render/tick.hpp"
 
@@ -138,7 +139,7 @@ class CombinationSearch {
     }
     const bool is_on_features = lies_on_features(scene, pose);
     // Where there is a certificate, it decides what lies beyond them: a feature that goes on with the next triangle may hold the tool.
-    if (!is_chosen_by_box(pose) || !(options.is_certified() || is_on_features)) return;
+    if (!is_chosen_by_box(scene, pose) || !(options.is_certified() || is_on_features)) return;
     keep({pose, scene.metric().energy(motion_between(reach_.target, pose)), active, is_capped, is_on_features});
   }
 
@@ -157,12 +158,19 @@ class CombinationSearch {
 
   /// Solves, where there is a certificate without the margin if need be; false where there is no solution.
   bool solve_or_relax(const Scene& scene, const Pose<Scalar>& pose) noexcept {
-    QpStatus status = solver_.solve(problem_, qp_solution_);
+    QpStatus status = optimise(scene.unit_of_solver());
     if (options.is_certified() && status == QpStatus::infeasible) {
       relax(scene, pose);
-      status = solver_.solve(problem_, qp_solution_);
+      status = optimise(scene.unit_of_solver());
     }
     return status == QpStatus::optimal;
+  }
+  QpStatus optimise(Scalar unit) noexcept {
+    change_unit_of_length(problem_, unit);
+    const QpStatus status = solver_.solve(problem_, qp_solution_);
+    change_unit_of_length(problem_, Scalar(1) / unit);
+    change_unit_of_length(qp_solution_, Scalar(1) / unit);
+    return status;
   }
 
   /// The constraints that held the tool in the last optimisation, without the sides of the box.
@@ -215,20 +223,20 @@ class CombinationSearch {
   }
 
   bool lies_on_features(const Scene& scene, const Pose<Scalar>& pose) const noexcept {
-    constexpr Scalar tolerance = Scalar(1e-9);
+    const Scalar tolerance = scene.margin() / 1000;
     return std::none_of(constraints_.begin(), constraints_.end(), [&](const Active& active) {
       return active.constraint.kind != FeaturePair::vertex_face && row_at(scene, active.constraint, pose).room < -tolerance;
     });
   }
 
   /// Whether eq. 5 lets a solution be chosen, where it selects.
-  bool is_chosen_by_box([[maybe_unused]] const Pose<Scalar>& pose) const noexcept {
+  bool is_chosen_by_box([[maybe_unused]] const Scene& scene, [[maybe_unused]] const Pose<Scalar>& pose) const noexcept {
     if constexpr (options.local_solution == LocalSolution::selected_by_box) {
       const Coordinates coordinates(reach_.start);
       const Vector6<Scalar> reached = coordinates.of(pose), goal = coordinates.of(reach_.target);
       for (int k = 0; k < 6; ++k) {
         // Coordinates that meet to rounding, as both angles of a tool that does not turn, are no reason to refuse.
-        constexpr Scalar slack = Scalar(1e-9);
+        const Scalar slack = k < 3 ? scene.margin() / 1000 : Scalar(1e-9);
         if (reached[k] < (std::min)(Scalar(0), goal[k]) - slack || reached[k] > (std::max)(Scalar(0), goal[k]) + slack) return false;
       }
     }

@@ -127,7 +127,8 @@ class TriangleRing {
       if (normal.isZero()) continue;
       const Vector point = corner(triangles_[i], 0);
       auto same = std::find_if(planes_.begin(), planes_.end(), [&](const Plane& plane) {
-        return (plane.normal - normal).squaredNorm() < parallel * parallel && abs(plane.normal.dot(point - plane.point)) < Scalar(1e-9);
+        const Vector between = point - plane.point;
+        return (plane.normal - normal).squaredNorm() < parallel * parallel && abs(plane.normal.dot(between)) <= parallel * between.norm();
       });
       if (same == planes_.end()) {
         if (!planes_.push_back({triangles_[i], normal, point, 0})) {

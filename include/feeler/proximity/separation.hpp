@@ -9,11 +9,10 @@
 
 namespace feeler {
 
-/// Distance under which closest points no longer tell a direction and separating axes take over [m].
+/// Distance under which closest points of a tool of a size no longer tell a direction, at the latest, and separating axes take over [m].
 template <class Scalar>
 Scalar touching_distance(Scalar size) noexcept {
-  const Scalar rounding = Scalar(1e6) * std::numeric_limits<Scalar>::epsilon() * size;
-  return rounding > Scalar(1e-8) ? rounding : Scalar(1e-8);
+  return Scalar(1e6) * std::numeric_limits<Scalar>::epsilon() * size;
 }
 
 /// Separating plane of a tool and a triangle that touch or overlap, by trying every candidate axis; the distance is negative by the least

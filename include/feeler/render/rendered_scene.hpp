@@ -62,12 +62,16 @@ class RenderedScene {
       radius_ = (std::max)(radius_, radii_[index(i)]);
     }
     const SceneRounding<MeshScalar, Scalar> rounding(object, tool_, reference_);
-    clearance_.allowance = rounding.allowance();
-    if constexpr (!std::is_same_v<MeshScalar, Scalar>) clearance_.rounding = rounding.of_poses();
-    margin_ = (std::max)(Scalar(settings.margin), 10 * clearance_.rounding);
-    clearance_.kept = margin_ / 10;
-    clearance_.touching = touching_distance(radius_);
+    const Scalar of_poses = std::is_same_v<MeshScalar, Scalar> ? Scalar(0) : rounding.of_poses();
+    margin_ = (std::max)(Scalar(settings.margin), 10 * of_poses);
+    clearance_ = Clearance<Scalar>(margin_);
+    clearance_.rounding = of_poses;
+    clearance_.allowance = (std::max)(clearance_.allowance, rounding.allowance());
+    clearance_.touching = (std::max)(clearance_.touching, touching_distance(radius_));
     clearance_.probe = trust_radius() / 4;
+    const Scalar wanted = clearance_.allowance / Clearance<Scalar>().allowance;
+    while (2 * unit_ > 3 * wanted) unit_ /= 2;
+    while (4 * unit_ < 3 * wanted) unit_ *= 2;
   }
   RenderedScene(const TriangleMesh<MeshScalar>&&, const ToolType&, const Settings<MeshScalar>&) = delete;  // it refers to the object
 
@@ -107,6 +111,10 @@ class RenderedScene {
     clearance.kept = (std::max)(clearance.kept, rounding);
     return clearance;
   }
+  /// The unit of length that optimisations are solved in [m]: the power of two in which `Clearance::allowance` is as many units as it is metres with the
+  /// default margin, or nearly. So the tolerances of a solver, which are numbers, and its norms, which add lengths to angles, mean the same in a scene of
+  /// any size.
+  Scalar unit_of_solver() const noexcept { return unit_; }
   /// `Settings::margin`, or more where the poses that are returned have not the digits for it [m].
   Scalar margin() const noexcept { return margin_; }
   /// What is nearer may be what holds the tool; what rests at the margin is far enough [m].
@@ -187,6 +195,7 @@ class RenderedScene {
   [[no_unique_address]] IdleTurns<Tool> idle_turns_;
   [[no_unique_address]] std::conditional_t<CompoundShape<Tool>, PieceTree<Tool>, NoGroups> piece_tree_;
   Clearance<Scalar> clearance_;
+  Scalar unit_ = Scalar(1);
   Scalar margin_;
 };
 

@@ -6,7 +6,6 @@
 
 #include "feeler/core/scalar.hpp"
 #include "feeler/object/triangle_mesh.hpp"
-#include "feeler/proximity/clearance.hpp"
 #include "feeler/proximity/motion.hpp"
 #include "feeler/tool/rigid_tool.hpp"
 #include "feeler/tool/swept_tool.hpp"
@@ -35,9 +34,9 @@ struct SceneRounding {
   }
 
   /// Overlap that rounding may make or hide [m].
-  Scalar allowance() const noexcept { return (std::max)(Clearance<Scalar>().allowance, 256 * std::numeric_limits<Scalar>::epsilon() * size); }
-  /// Least margin with which rounding cannot carry a tool through a surface [m].
-  Scalar least_margin() const noexcept { return 20 * allowance(); }
+  Scalar allowance() const noexcept { return 256 * std::numeric_limits<Scalar>::epsilon() * size; }
+  /// Least margin with which rounding cannot carry a tool through a surface, or 0.1 nm [m].
+  Scalar least_margin() const noexcept { return (std::max)(Scalar(1e-10), 20 * allowance()); }
   /// How far a point of the tool may be from where it should be when the tool touches the object and its pose is rounded to `MeshScalar` [m].
   Scalar of_poses() const noexcept {
     const Scalar unit = Scalar(std::numeric_limits<MeshScalar>::epsilon()) / 2;

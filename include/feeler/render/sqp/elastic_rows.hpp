@@ -37,6 +37,15 @@ class ElasticRows {
   /// Appends the bounds of the next row of a problem.
   void add(Scalar soft, Scalar hard) noexcept { rows_[index(size_++)] = {soft, (std::min)(hard, soft), false}; }
 
+  /// @param unit  the new unit of length, in the old one
+  void change_unit(Scalar unit) noexcept {
+    for (int k = 0; k < size_; ++k) {
+      rows_[index(k)].soft /= unit;
+      rows_[index(k)].hard /= unit;
+    }
+    relaxation_ /= unit;
+  }
+
   /// ξ of the last solution [m].
   Scalar relaxation() const noexcept { return relaxation_; }
   /// Whether a row of the last solution is in conflict.

@@ -59,7 +59,7 @@ class LastForces {
 
     /// Of its place and, on the scale of the arm if there is one, of its direction [m²].
     Scalar squared_distance(const Row& row) const noexcept {
-      const Scalar scale = arm.squaredNorm() + std::numeric_limits<Scalar>::epsilon();
+      const Scalar scale = arm.squaredNorm() + (std::numeric_limits<Scalar>::min)();
       return (row.arm - arm).squaredNorm() + scale * (row.normal - normal).squaredNorm();
     }
   };

@@ -41,7 +41,7 @@ class Linearisation {
   using Problem = StepProblem<Solver, 256, Row>;
   static constexpr int unlimited = (std::numeric_limits<int>::max)();
 
-  explicit Linearisation(const Scene& scene) : near_vertices_(scene.largest_vertex_count()) {}
+  explicit Linearisation(const Scene& scene) : problem_(scene.unit_of_solver()), near_vertices_(scene.largest_vertex_count()) {}
 
   void clear() noexcept {
     pairs_.clear();

@@ -10,6 +10,7 @@
 #include "feeler/core/index.hpp"
 #include "feeler/core/scalar.hpp"
 #include "feeler/qp/qp_solver.hpp"
+#include "feeler/qp/unit_of_length.hpp"
 #include "feeler/qp/warm_start.hpp"
 #include "feeler/render/sqp/elastic_rows.hpp"
 #include "feeler/render/sqp/lagrangian_hessian.hpp"
@@ -23,7 +24,7 @@ namespace feeler {
 /// ξ is what is missing of the margin where most is missing (`ElasticRows`). Its price is a multiple of the pull of the hand (`set_price`), so no step
 /// goes away from the hand for more than the margin is worth. `leastₖ` is what a step is to leave of the separation of the pair at the last certified pose
 /// (`Clearance::to_leave`), or a fifth of the margin where that is less. That pose meets it, so a step exists. Without clearance it is 0. Many rows ask
-/// the same then, and chance would tell which of them hold the tool: those that have not held it lately are asked for a picometre less, so that the
+/// the same then, and chance would tell which of them hold the tool: those that have not held it lately are asked for a hair less, so that the
 /// same few hold it.
 /// @tparam RowType  a `ContactRow`, or one with another curvature
 template <QpSolver Solver, int rows = 128, class RowType = ContactRow<typename Solver::Scalar>>
@@ -39,6 +40,9 @@ class StepProblem {
     Scalar required_gap;  ///< `Clearance::to_leave` of the separation at the last certified pose [m]
     bool is_spare = false;  ///< it has not held the tool lately: where there is no clearance others are to hold it
   };
+
+  /// @param unit  of length, in which the solver is to work [m]; a power of two
+  explicit StepProblem(Scalar unit = Scalar(1)) noexcept : unit_(unit) {}
 
   void clear() noexcept {
     rows_.clear();
@@ -202,13 +206,14 @@ class StepProblem {
   void load_rows(Scalar margin) noexcept {
     problem_.clear_rows();
     elastic_.clear();
+    const Scalar hair = some_tolerances * unit_;
     for (int k = 0; k < rows_.size(); ++k) {
       const Row& row = rows_[k];
       const Standing& standing = standings_[index(k)];
       const bool yields = standing.is_spare && !(standing.required_gap > Scalar(0));
-      const Scalar soft = margin - row.gap - (yields ? picometre : Scalar(0));
+      const Scalar soft = margin - row.gap - (yields ? hair : Scalar(0));
       problem_.add_row(row.gradient(), soft);
-      elastic_.add(soft, (yields ? -picometre : (std::min)(standing.required_gap, margin / 5)) - row.gap);
+      elastic_.add(soft, (yields ? -hair : (std::min)(standing.required_gap, margin / 5)) - row.gap);
     }
   }
 
@@ -220,8 +225,21 @@ class StepProblem {
 
   /// @param start  rows that are likely to be active
   void solve_elastic(const WarmStart& start = {}) noexcept {
+    change_unit(unit_);
+    solve_in_unit(start);
+    change_unit(Scalar(1) / unit_);
+    change_unit_of_length(solution_, Scalar(1) / unit_);
+  }
+  /// Of all that a solution depends on.
+  void change_unit(Scalar unit) noexcept {
+    if (unit_ == Scalar(1)) return;
+    change_unit_of_length(problem_, unit);
+    elastic_.change_unit(unit);
+    price_ /= unit;
+  }
+  void solve_in_unit(const WarmStart& start) noexcept {
     is_solved_ = is_optimal_ = true;
-    solves_ = elastic_.solve(solver_, problem_, price_, picometre, allowed_solves_, start, solution_);
+    solves_ = elastic_.solve(solver_, problem_, price_, some_tolerances, allowed_solves_, start, solution_);
     if (solves_ > 0 && !goes_too_far()) return;
     ++solves_;
     // Rounding or curvature may leave a row short of its hard bound by a hair, which rows that all but contradict each other win back far away or
@@ -243,7 +261,7 @@ class StepProblem {
   }
 
   inline static const Scalar price_per_force = Scalar(24);
-  inline static const Scalar picometre = Scalar(1e-12);  // some tolerances of a solver
+  inline static const Scalar some_tolerances = Scalar(1e-12);  // of a solver, in its unit
 
   Solver solver_;
   QpProblem<Scalar> problem_;
@@ -256,6 +274,7 @@ class StepProblem {
   int kept_ = 0;  // of them, at the end
   std::array<Standing, std::size_t(row_capacity)> standings_;
   ElasticRows<Scalar, row_capacity> elastic_;
+  Scalar unit_;
   Scalar price_ = Scalar(0);  // of the margin, in the unit of multipliers
   int allowed_solves_ = ElasticRows<Scalar, row_capacity>::most_solves, solves_ = 0;
   bool is_solved_ = false;  // since the rows were last cleared
