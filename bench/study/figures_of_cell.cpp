@@ -81,7 +81,7 @@ CellFigures figures_of(const Cell& cell, double seconds, unsigned seed, TruthPat
   const test::CheckedObject object(scene.vertices, scene.triangles);
   const auto pieces = checked_pieces(scene);
 
-  std::vector<double> errors, solver_errors, force_errors, force_differences, torque_differences, separations, jitters, work, times;
+  std::vector<double> errors, solver_errors, force_errors, force_differences, torque_differences, separations, jitters, work, operations, times;
   // The sample of a path at a time, if there is one.
   const auto sample_at = [](const TruthPath& all, double time, std::size_t& next) -> const TruthPath::Sample* {
     while (next < all.samples.size() && all.samples[next].time < time - 1e-9) ++next;
@@ -103,6 +103,7 @@ CellFigures figures_of(const Cell& cell, double seconds, unsigned seed, TruthPat
     last_force = reading.force, last_change = change;
     if (reading.force.norm() > 0) {
       work.push_back(reading.work);
+      operations.push_back(double(reading.operations));
       times.push_back(reading.microseconds);
     }
     if (k % (cell.rate / TruthPath::samples_a_second) == 0)
@@ -138,6 +139,7 @@ CellFigures figures_of(const Cell& cell, double seconds, unsigned seed, TruthPat
   figures.jitter_99 = quantile(jitters, 0.99);
   figures.lag = double(longest_run) / cell.rate;
   figures.work_median = quantile(work, 0.5), figures.work_99 = quantile(work, 0.99), figures.work_most = quantile(work, 1);
+  figures.operations_median = quantile(operations, 0.5), figures.operations_99 = quantile(operations, 0.99);
   figures.time_median = quantile(times, 0.5), figures.time_99 = quantile(times, 0.99), figures.time_999 = quantile(times, 0.999),
   figures.time_most = quantile(times, 1);
   return figures;

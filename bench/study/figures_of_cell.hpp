@@ -54,6 +54,7 @@ struct CellFigures {
   double jitter_99 = 0;                        ///< second difference of the force from tick to tick [N]
   double lag = 0;                              ///< longest time without a converged tick [s]
   double work_median = 0, work_99 = 0, work_most = 0;
+  double operations_median = 0, operations_99 = 0;  ///< on numbers, of ticks in contact; 0 where the scalar does not count them
   double time_median = 0, time_99 = 0, time_999 = 0, time_most = 0;  ///< of ticks in contact, processor time [µs]
 };
 

@@ -22,6 +22,7 @@ struct Reading {
   int work = 0;
   bool is_at_rest = false;  ///< the tool did not move
   double microseconds = 0;  ///< processor time of the tick alone
+  long operations = 0;      ///< on numbers, where the scalar counts them
 };
 
 /// A renderer at work.

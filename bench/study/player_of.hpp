@@ -24,9 +24,11 @@ class PlayerOf final : public Player {
   TickStatus reset(const Pose<double>& pose) override { return renderer_.reset(pose.cast<Scalar>()); }
   Reading update(const Pose<double>& hand) override {
     const Pose<Scalar> given = hand.cast<Scalar>();
+    const long counted = operations();
     const double begin = bench::thread_time();
     const auto& tick = renderer_.update(given);
     const double end = bench::thread_time();
+    const long operations_of_tick = operations() - counted;
     const auto wide = [](const Vector3<Scalar>& v) { return Vector3<Wide>(v.unaryExpr([](const Scalar& x) { return static_cast<Wide>(x); })); };
     const auto& rotation = tick.graphic_pose.rotation;
     return {{wide(tick.graphic_pose.translation), Quaternion<Wide>(static_cast<Wide>(rotation.w()), static_cast<Wide>(rotation.x()),
@@ -36,10 +38,16 @@ class PlayerOf final : public Player {
             tick.status,
             tick.work,
             tick.path.empty(),
-            end - begin};
+            end - begin,
+            operations_of_tick};
   }
 
  private:
+  /// That the scalar has counted so far.
+  static long operations() {
+    if constexpr (requires { Scalar::operations(); }) return Scalar::operations();
+    return 0;
+  }
   static Settings<Scalar> settings_of(const StudyScene& scene, const Cell& cell) {
     const auto stiffness = scene.stiffness();
     Settings<Scalar> settings;

@@ -84,10 +84,14 @@ std::vector<Cell> cells_of(const Selection& selection) {
     if (sweep.name == "renderings") vary(scenes, known_renderings, [](Cell& cell, const std::string& name) { cell.rendering = name; });
     if (sweep.name == "margin")
       vary(scenes, some<double>(quick, {1e-8, 1e-7, 1e-6, 1e-5, 1e-4}, {1e-7, 1e-6, 1e-5}), [](Cell& cell, double value) { cell.margin = value; });
-    if (sweep.name == "budget")
-      vary(scenes, some(quick, {16, 32, 64, 128, 256, 512, 2048}, {32, 128, 512}), [](Cell& cell, int value) { cell.budget = value; });
-    if (sweep.name == "iterations")
-      vary(scenes, some(quick, {1, 2, 3, 4, 6, 12, 32}, {1, 4, 12}), [](Cell& cell, int value) { cell.iterations = value; });
+    for (const std::string rendering : {"double", "counted"}) {
+      if (sweep.name == "budget")
+        vary(scenes, some(quick, {16, 32, 64, 128, 256, 512, 2048}, {32, 128, 512}),
+             [&](Cell& cell, int value) { cell.rendering = rendering, cell.budget = value; });
+      if (sweep.name == "iterations")
+        vary(scenes, some(quick, {1, 2, 3, 4, 6, 12, 32}, {1, 4, 12}),
+             [&](Cell& cell, int value) { cell.rendering = rendering, cell.iterations = value; });
+    }
     if (sweep.name == "rate")
       vary(scenes, some(quick, {250, 500, 1000, 2000, 4000, 10000}, {500, 1000, 4000}), [](Cell& cell, int value) { cell.rate = value; });
     for (const auto& scalar : scalars) {

@@ -23,7 +23,7 @@ namespace fs = std::filesystem;
 constexpr const char* results_head =
     "cell,scene,rendering,scalar,solver,method,margin_m,budget,iterations,rate_hz,scale,offset_m,samples,samples_without_truth,converged,error_median_m,error_p99_m,"
     "error_most_m,solver_samples,solver_error_median_m,solver_error_p99_m,within_0.1um,within_1um,deepest_m,separation_m,force_error_median_n,force_error_p99_n,force_jnd_p99,torque_jnd_p99,jitter_p99_n,lag_s,work_median,"
-    "work_p99,work_most,seconds,seed,cells,commit,compiler,processor,refused";
+    "work_p99,work_most,operations_median,operations_p99,seconds,seed,cells,commit,compiler,processor,refused";
 constexpr const char* times_head =
     "cell,scene,rendering,margin_m,budget,iterations,rate_hz,scale,offset_m,time_median_us,time_p99_us,time_p99.9_us,time_most_us,processor";
 
@@ -42,13 +42,14 @@ std::string choices(const Cell& cell) {
 
 std::string results_row(int number, const Cell& cell, const CellFigures& f, const std::string& tail) {
   const Rendering& how = rendering(cell.rendering);
-  char text[600];
+  char text[600], operations[60] = ",,";
+  if (f.operations_99 > 0) std::snprintf(operations, sizeof operations, "%.0f,%.0f,", f.operations_median, f.operations_99);
   std::snprintf(text, sizeof text, ",%d,%d,%.6g,%.4g,%.4g,%.4g,%d,%.4g,%.4g,%.6g,%.6g,%.4g,%.4g,%.4g,%.4g,%.4g,%.4g,%.4g,%.4g,%g,%g,%g,", f.samples,
                 f.samples_without_truth, f.converged, f.error_median, f.error_99, f.error_most, f.solver_samples, f.solver_error_median,
                 f.solver_error_99, f.within_tenth_micrometre, f.within_micrometre, f.deepest, f.separation, f.force_error_median, f.force_error_99,
                 f.force_jnd_99, f.torque_jnd_99, f.jitter_99, f.lag, f.work_median, f.work_99, f.work_most);
   return std::to_string(number) + "," + cell.scene + "," + how.name + "," + how.scalar + "," + how.solver + "," + plain(how.method) + "," +
-         choices(cell) + text + tail + "," + plain(f.refusal);
+         choices(cell) + text + operations + tail + "," + plain(f.refusal);
 }
 
 std::string times_row(int number, const Cell& cell, const CellFigures& f, const std::string& processor) {

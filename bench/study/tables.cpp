@@ -34,21 +34,27 @@ class Line {
       for (const char* column : {"solver_error_median_m", "solver_error_p99_m"}) values_[column].push_back(number(row, column));
     for (const char* column : {"converged", "error_median_m", "error_p99_m", "force_jnd_p99", "work_p99", "deepest_m"})
       values_[column].push_back(number(row, column));
+    if (number(row, "operations_p99") > 0)
+      for (const char* column : {"operations_median", "operations_p99"}) values_[column].push_back(number(row, column) / 1000);
     for (const char* column : {"time_median_us", "time_p99_us"}) values_[column].push_back(number(times_of(row, *times_), column));
   }
   std::string text() const {
-    if (values_.empty()) return " – | – | – | – | – | – | – | – | refused |";
+    if (values_.empty()) return " – | – | – | – | – | – | – | – | – | refused |";
     return " " + plain("%.1f", 100 * middle("converged")) + " / " + plain("%.1f", 100 * least("converged")) + " | " + solver_errors() + " | " +
            length(middle("error_median_m")) + " / " + length(most("error_median_m")) + " | " + plain("%.3f", most("force_jnd_p99")) + " | " +
-           length(most("deepest_m")) + " | " + plain("%.0f", middle("work_p99")) + " | " + plain("%.1f", middle("time_median_us")) + " / " +
-           plain("%.0f", middle("time_p99_us")) + " | " + std::to_string(values_.at("converged").size()) +
-           (refused_ > 0 ? ", refused " + std::to_string(refused_) : "") + " |";
+           length(most("deepest_m")) + " | " + plain("%.0f", middle("work_p99")) + " | " + operations() + " | " +
+           plain("%.1f", middle("time_median_us")) + " / " + plain("%.0f", middle("time_p99_us")) + " | " +
+           std::to_string(values_.at("converged").size()) + (refused_ > 0 ? ", refused " + std::to_string(refused_) : "") + " |";
   }
 
  private:
   std::string solver_errors() const {
     if (!values_.contains("solver_error_median_m")) return "– | –";
     return length(middle("solver_error_median_m")) + " | " + length(middle("solver_error_p99_m")) + " / " + length(most("solver_error_p99_m"));
+  }
+  std::string operations() const {
+    if (!values_.contains("operations_median")) return "–";
+    return plain("%.0f", middle("operations_median")) + " / " + plain("%.0f", middle("operations_p99"));
   }
   double middle(const char* column) const { return bench::quantile(values_.at(column), 0.5); }
   double least(const char* column) const { return bench::quantile(values_.at(column), 0); }
@@ -60,8 +66,8 @@ class Line {
 };
 
 constexpr const char* columns =
-    " converged %, middle / least | solver error, median [m] | p99, middle / most | error, median, middle / most [m] | force error, p99, most [JND] | deepest [m] | work, p99 | time, median / p99 [µs] | scenes |\n"
-    "|---|---|---|---|---|---|---|---|---|---|\n";
+    " converged %, middle / least | solver error, median [m] | p99, middle / most | error, median, middle / most [m] | force error, p99, most [JND] | deepest [m] | work, p99 | operations, median / p99 [10³] | time, median / p99 [µs] | scenes |\n"
+    "|---|---|---|---|---|---|---|---|---|---|---|\n";
 
 }  // namespace
 
