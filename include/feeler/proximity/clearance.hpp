@@ -5,19 +5,22 @@
 
 namespace feeler {
 
-/// The separations that a certificate insists on: shares of the margin, so that a scene and its copy in another size are certified alike.
+/// The separations that a certificate insists on, and the lengths that it rounds to: shares of the margin, and of the length of usual motions, so that a
+/// scene and its copy in another size are certified alike.
 template <class Scalar>
 struct Clearance {
-  Scalar kept;                  ///< separation required wherever there is that much to begin with [m]
+  Scalar kept;  ///< separation required wherever there is that much to begin with [m]
   Scalar rounding = Scalar(0);  ///< of the poses that are returned: where there is that much to begin with, no motion leaves less [m]
-  Scalar allowance;             ///< overlap accepted where there is no clearance at all; rounding, never accumulated [m]
-  Scalar touching;              ///< see `touching_distance` [m]
-  Scalar resolution;            ///< advance too small to look for [m]
-  Scalar probe;                 ///< length of motion over which all blockers are wanted, not only the first [m]
+  Scalar allowance;  ///< overlap accepted where there is no clearance at all; rounding, never accumulated [m]
+  Scalar touching;  ///< see `touching_distance` [m]
+  Scalar resolution;  ///< advance too small to look for [m]
+  Scalar probe;  ///< length of motion over which all blockers are wanted, not only the first [m]
 
-  /// @param margin  1 µm by default, as of the settings [m]
-  explicit Clearance(Scalar margin = Scalar(1e-6)) noexcept
-      : kept(margin / 10), allowance(margin / 200000), touching(margin / 100), resolution(margin / 4), probe(100 * margin) {}
+  /// The defaults are those of the settings.
+  /// @param margin  that is wanted [m]
+  /// @param way     length of a motion near the object [m]
+  explicit Clearance(Scalar margin = Scalar(1e-6), Scalar way = Scalar(4e-4)) noexcept
+      : kept(margin / 10), allowance(way / 400 / 200000), touching(way / 400 / 100), resolution(way / 400 / 4), probe(way / 4) {}
 
   /// A separation up to it is none: rounding decided how much there is [m].
   Scalar negligible() const noexcept { return 2 * allowance; }

@@ -10,8 +10,8 @@ namespace feeler {
 
 /// min ½ dᵀ H d + gᵀ d  subject to  aₖᵀ d ≥ bₖ, k < row_count.
 ///
-/// H must be positive definite. Rows come from unit normals, so bₖ and the violation of a row are lengths [m]. The tolerances of solvers are made for a
-/// margin of a micrometre; a renderer states problems with another in a unit of length in which it is about as much (`change_unit_of_length`).
+/// H must be positive definite. Rows come from unit normals, so bₖ and the violation of a row are lengths [m]. The tolerances of solvers are made for
+/// steps of 0.4 mm; a renderer states problems with others in a unit of length in which they are about as long (`change_unit_of_length`).
 template <RealScalar ScalarType>
 struct QpProblem {
   using Scalar = ScalarType;

@@ -64,11 +64,10 @@ class RenderedScene {
     const SceneRounding<MeshScalar, Scalar> rounding(object, tool_, reference_);
     const Scalar of_poses = std::is_same_v<MeshScalar, Scalar> ? Scalar(0) : rounding.of_poses();
     margin_ = (std::max)(Scalar(settings.margin), 10 * of_poses);
-    clearance_ = Clearance<Scalar>(margin_);
+    clearance_ = Clearance<Scalar>(margin_, trust_radius());
     clearance_.rounding = of_poses;
     clearance_.allowance = (std::max)(clearance_.allowance, rounding.allowance());
     clearance_.touching = (std::max)(clearance_.touching, touching_distance(radius_));
-    clearance_.probe = trust_radius() / 4;
     const Scalar wanted = clearance_.allowance / Clearance<Scalar>().allowance;
     while (2 * unit_ > 3 * wanted) unit_ /= 2;
     while (4 * unit_ < 3 * wanted) unit_ *= 2;
@@ -112,7 +111,7 @@ class RenderedScene {
     return clearance;
   }
   /// The unit of length that optimisations are solved in [m]: the power of two in which `Clearance::allowance` is as many units as it is metres with the
-  /// default margin, or nearly. So the tolerances of a solver, which are numbers, and its norms, which add lengths to angles, mean the same in a scene of
+  /// default trust radius, or nearly. So the tolerances of a solver, which are numbers, and its norms, which add lengths to angles, mean the same in a scene of
   /// any size.
   Scalar unit_of_solver() const noexcept { return unit_; }
   /// `Settings::margin`, or more where the poses that are returned have not the digits for it [m].
