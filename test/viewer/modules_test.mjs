@@ -3,6 +3,7 @@
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
 import { clipped, clippedSegment, cutMesh, cutPiece, cuttingPlane, enclose, gapBetween, loopsOf, placed } from '../../device/viewer/page/cross_section.js';
+import { creaseLines } from '../../device/viewer/page/creases.js';
 import { contactTypes, countTypes, withUnit } from '../../device/viewer/page/format.js';
 import { readSticks } from '../../device/viewer/page/gamepad.js';
 import { families, palettes } from '../../device/viewer/page/palette.js';
@@ -201,4 +202,20 @@ test('colours differ from what they are drawn on: by 4.5 as words and by 3 as li
     }
     for (const colour of Object.values(families)) assert.ok(Math.min(contrast(colour, palette.card), contrast(colour, palette.background)) >= 3, colour);
   }
+});
+
+test('the lines of an object are its rims and sharp edges that lead somewhere', () => {
+  const lines = (points, indices) => creaseLines(Float32Array.from(points.flat()), Uint32Array.from(indices)).length / 6;
+  const small = 1e-5;  // [m]: no size is too small
+  const corners = [0, 1, 2, 3, 4, 5, 6, 7].map((i) => [1, 2, 4].map((bit) => (i & bit ? small : 0)));
+  const faces = [[0, 2, 3, 1], [4, 5, 7, 6], [0, 1, 5, 4], [2, 6, 7, 3], [0, 4, 6, 2], [1, 3, 7, 5]].flatMap(([a, b, c, d]) => [a, b, c, a, c, d]);
+  assert.equal(lines(corners, faces), 12, 'those of a cube, and no diagonal');
+  const n = 6, at = (i, j) => i * n + j, sheet = [], flat = [];
+  for (let i = 0; i < n; ++i) for (let j = 0; j < n; ++j) flat.push([i, j, 0]);
+  for (let i = 0; i + 1 < n; ++i) for (let j = 0; j + 1 < n; ++j) sheet.push(at(i, j), at(i + 1, j), at(i + 1, j + 1), at(i, j), at(i + 1, j + 1), at(i, j + 1));
+  const tent = flat.map(([x, y]) => [x, y, 3 - Math.abs(x - 2)]);
+  assert.equal(lines(flat, sheet), 20, 'the rim of a sheet');
+  assert.equal(lines(tent, sheet), 25, 'and the ridge of a tent, from rim to rim');
+  const fading = flat.map(([x, y]) => [x, y, -Math.abs(x - 2) * (0.7 - 0.12 * y)]);
+  assert.equal(lines(fading, sheet), 20, 'and no ridge that ends in the middle');
 });

@@ -43,7 +43,7 @@ void main() {
 export function clay({ colour, inner = colour, opacity = 1, cut = new Vector4(0, 0, 0, 1), recedes = false }) {
   return new ShaderMaterial({
     vertexShader, fragmentShader, side: DoubleSide, transparent: opacity < 1, depthWrite: opacity >= 1,
-    polygonOffset: recedes, polygonOffsetFactor: 1, polygonOffsetUnits: 4,
+    polygonOffset: recedes, polygonOffsetFactor: 0, polygonOffsetUnits: 100,  // by their slope, ridges would recede behind their own far side
     uniforms: { colour: { value: new Color(colour) }, inner: { value: new Color(inner) }, opacity: { value: opacity }, cut: { value: cut } },
   });
 }

@@ -1,6 +1,7 @@
 // The object: clay that can be seen through or cut open.
-import { EdgesGeometry, Group, Mesh, Vector3, Vector4 } from 'three';
+import { Group, Mesh, Vector3, Vector4 } from 'three';
 import { clay, setColour, setOpacity } from './clay.js';
+import { creaseLines } from './creases.js';
 import { fatMaterial, fatSegments, setLineColour } from './fat_line.js';
 import { objectGeometry } from './geometry.js';
 
@@ -28,14 +29,11 @@ export class ObjectView extends Group {
     this.mesh = new Mesh(geometry, this.material);
     this.mesh.renderOrder = 1;
     this.add(this.mesh);
-    if (indices.length / 3 <= mostTrianglesWithEdges) this.addEdges(geometry);
+    if (this.triangleCount <= mostTrianglesWithEdges) this.addEdges(creaseLines(positions, indices));
     this.setLook(this.look ?? 'solid');
   }
 
-  addEdges(geometry) {
-    const edges = new EdgesGeometry(geometry, 40);
-    const points = edges.getAttribute('position').array;
-    edges.dispose();
+  addEdges(points) {
     if (points.length === 0) return;
     this.edges = fatSegments(points, this.edgeMaterial);
     this.add(this.edges);
