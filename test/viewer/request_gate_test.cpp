@@ -47,6 +47,29 @@ BOOST_AUTO_TEST_CASE(with_a_token_nothing_is_admitted_without_it) {
   BOOST_TEST(!gate.judge({"GET", "/live?token=secret", host, "http://evil.example", true}));
 }
 
+BOOST_AUTO_TEST_CASE(a_file_is_taken_from_the_own_page_alone) {
+  const char *const host = "127.0.0.1:4280", *const own = "http://127.0.0.1:4280";
+  const RequestGate gate("127.0.0.1", 4280, "");
+  BOOST_TEST(bool(gate.judge({"POST", "/file?name=a.stl", host, own, false})));
+  BOOST_TEST(gate.judge({"POST", "/file", host, "", false}).status == 403);
+  BOOST_TEST(gate.judge({"POST", "/file", host, "null", false}).status == 403);
+  BOOST_TEST(gate.judge({"POST", "/file", host, "http://evil.example", false}).status == 403);
+  BOOST_TEST(gate.judge({"POST", "/file", "evil.example:4280", "http://evil.example:4280", false}).status == 403);
+  BOOST_TEST(gate.judge({"POST", "/live", host, own, false}).status == 405);
+  BOOST_TEST(gate.judge({"PUT", "/file", host, own, false}).status == 405);
+  const RequestGate guarded("127.0.0.1", 4280, "secret");
+  BOOST_TEST(guarded.judge({"POST", "/file?name=a.stl", host, own, false}).status == 403);
+  BOOST_TEST(bool(guarded.judge({"POST", "/file?token=secret&name=a.stl", host, own, false})));
+}
+
+BOOST_AUTO_TEST_CASE(a_text_of_a_query_has_its_escapes_undone_and_broken_ones_stay) {
+  using feeler::viewer::query_text;
+  BOOST_TEST(query_text("/file?a=b&name=my+two%20Z%C3%A4hne%2B.stl", "name") == "my two Zähne+.stl");
+  BOOST_TEST(query_text("/file?name=100%", "name") == "100%");
+  BOOST_TEST(query_text("/file?name=%zz%-1%4", "name") == "%zz%-1%4");
+  BOOST_TEST(query_text("/file", "name") == "");
+}
+
 BOOST_AUTO_TEST_CASE(tokens_are_long_and_differ) {
   std::set<std::string> tokens;
   for (int i = 0; i < 100; ++i) tokens.insert(feeler::viewer::random_token());

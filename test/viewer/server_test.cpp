@@ -60,6 +60,15 @@ std::string get(const Started& server, const std::string& target, const std::str
   return raw(server, "GET " + target + " HTTP/1.1\r\nHost: " + host + "\r\nConnection: close\r\n" + more + "\r\n");
 }
 
+/// Sends a file as a page does.
+std::string post(const Started& server, const std::string& target, const std::string& body, const std::string& origin, std::size_t length) {
+  return raw(server, "POST " + target + " HTTP/1.1\r\nHost: " + server.host() + "\r\nOrigin: " + origin +
+                         "\r\nConnection: close\r\nContent-Length: " + std::to_string(length) + "\r\n\r\n" + body);
+}
+std::string post(const Started& server, const std::string& target, const std::string& body) {
+  return post(server, target, body, "http://" + server.host(), body.size());
+}
+
 bool starts(const std::string& text, const std::string& beginning) { return text.rfind(beginning, 0) == 0; }
 
 /// A page that is open.
@@ -148,6 +157,62 @@ BOOST_AUTO_TEST_CASE(a_message_that_is_too_long_closes_its_page_and_no_other) {
   BOOST_TEST(quiet.read() == "hello");
   quiet.write("b");
   BOOST_TEST(quiet.read() == "you said b");
+}
+
+BOOST_AUTO_TEST_CASE(a_file_of_a_page_arrives_whole_with_its_name) {
+  ServerSettings settings = with_a_page();
+  std::string name, bytes;
+  settings.on_file = [&](std::string the_name, std::string the_bytes) {
+    name = std::move(the_name), bytes = std::move(the_bytes);
+    return std::string(bytes.empty() ? "This file is empty." : "");
+  };
+  const Started server(settings);
+  std::string sent(3000000, 'x');
+  for (std::size_t i = 0; i < sent.size(); ++i) sent[i] = char(i * 7919 >> 3);
+  BOOST_TEST(starts(post(server, "/file?name=my%20mesh.stl", sent), "HTTP/1.1 202"));
+  BOOST_TEST(name == "my mesh.stl");
+  BOOST_TEST((bytes == sent));
+  const std::string refused = post(server, "/file?name=a.stl", "");
+  BOOST_TEST(starts(refused, "HTTP/1.1 400"));
+  BOOST_TEST(refused.find("This file is empty.") != std::string::npos);
+}
+
+BOOST_AUTO_TEST_CASE(files_of_others_and_files_too_large_are_refused_before_they_are_read_and_the_server_goes_on) {
+  ServerSettings settings = with_a_page();
+  int files = 0;
+  settings.on_file = [&](std::string, std::string) { return ++files, std::string(); };
+  const Started server(settings);
+  const std::string own = "http://" + server.host();
+  BOOST_TEST(starts(post(server, "/file", "a", "http://evil.example", 1), "HTTP/1.1 403"));
+  BOOST_TEST(starts(post(server, "/other", "a"), "HTTP/1.1 405"));
+  BOOST_TEST(starts(post(server, "/file", "", own, Server::largest_file + 1), "HTTP/1.1 413"));
+  const std::string chunk = "4000000\r\n" + std::string(0x4000000, 'x') + "\r\n1\r\nx\r\n0\r\n\r\n";  // of no length that is told
+  raw(server, "POST /file HTTP/1.1\r\nHost: " + server.host() + "\r\nOrigin: " + own + "\r\nTransfer-Encoding: chunked\r\n\r\n" + chunk);
+  BOOST_TEST(files == 0);
+  BOOST_TEST(starts(get(server, "/", server.host()), "HTTP/1.1 200"));
+  BOOST_TEST(starts(post(Started(with_a_page()), "/file", "a"), "HTTP/1.1 404"));
+}
+
+BOOST_AUTO_TEST_CASE(two_files_that_never_end_keep_a_third_out_until_they_leave) {
+  ServerSettings settings = with_a_page();
+  settings.on_file = [](std::string, std::string) { return std::string(); };
+  const Started server(settings);
+  {
+    asio::io_context context;
+    std::vector<Tcp::socket> slow;
+    const std::string beginning =
+        "POST /file HTTP/1.1\r\nHost: " + server.host() + "\r\nOrigin: http://" + server.host() + "\r\nContent-Length: 9\r\n\r\nx";
+    for (int i = 0; i < 2; ++i) {
+      slow.emplace_back(context).connect({asio::ip::make_address("127.0.0.1"), server.port()});
+      asio::write(slow.back(), asio::buffer(beginning));
+    }
+    std::string third;
+    for (int i = 0; i < 100 && !starts(third, "HTTP/1.1 503"); ++i) third = post(server, "/file", "a");
+    BOOST_TEST(starts(third, "HTTP/1.1 503"));
+  }
+  std::string later;
+  for (int i = 0; i < 100 && !starts(later, "HTTP/1.1 202"); ++i) later = post(server, "/file", "a");
+  BOOST_TEST(starts(later, "HTTP/1.1 202"));
 }
 
 BOOST_AUTO_TEST_CASE(a_page_that_never_stops_talking_is_closed) {

@@ -1,6 +1,7 @@
 // Compares a request with what the server's own page would send.
 #include "feeler/viewer/request_gate.hpp"
 
+#include <charconv>
 #include <random>
 #include <utility>
 
@@ -33,12 +34,13 @@ RequestGate::RequestGate(std::string address, unsigned short port, std::string t
     : address_(std::move(address)), port_(std::to_string(port)), token_(std::move(token)) {}
 
 Verdict RequestGate::judge(const RequestHead& request) const {
-  if (request.method != "GET") return {405, "Only GET is answered here."};
+  const bool sends_file = request.method == "POST" && path_of(request.target) == file_path;
+  if (request.method != "GET" && !sends_file) return {405, "Only GET is answered here."};
   if (!is_own_host(request.host)) return {403, "This request names another host than the one that serves the page."};
   constexpr std::string_view scheme = "http://";
   const bool is_foreign =
       !request.origin.empty() && (request.origin.substr(0, scheme.size()) != scheme || request.origin.substr(scheme.size()) != request.host);
-  if (is_foreign) return {403, "This request comes from a page of another site."};
+  if (is_foreign || (sends_file && request.origin.empty())) return {403, "This request comes from a page of another site."};
   if (!has_token(request.target)) return {403, "This request lacks the token: open the address that feeler-demo printed."};
   return {};
 }
@@ -68,5 +70,18 @@ std::string random_token() {
 }
 
 std::string_view path_of(std::string_view target) noexcept { return target.substr(0, target.find('?')); }
+
+std::string query_text(std::string_view target, std::string_view name) {
+  const std::string_view escaped = query_value(target, name);
+  std::string text;
+  for (std::size_t i = 0; i < escaped.size(); ++i) {
+    unsigned code = 0;
+    const char* const digits = escaped.data() + i + 1;
+    const bool is_escape = escaped[i] == '%' && i + 2 < escaped.size() && std::from_chars(digits, digits + 2, code, 16).ptr == digits + 2;
+    text += is_escape ? char(code) : escaped[i] == '+' ? ' ' : escaped[i];
+    if (is_escape) i += 2;
+  }
+  return text;
+}
 
 }  // namespace feeler::viewer

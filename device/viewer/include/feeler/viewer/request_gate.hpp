@@ -23,7 +23,11 @@ struct Verdict {
   explicit operator bool() const noexcept { return status == 200; }
 };
 
-/// Admits what a page of this server asks for, and refuses what other sites make a browser ask.
+/// Where a page sends files to.
+constexpr std::string_view file_path = "/file";
+
+/// Admits what a page of this server asks for, and refuses what other sites make a browser ask. Files are taken from the page alone: a browser
+/// names the origin of whatever it sends.
 ///
 /// A site that gives its own name the address 127.0.0.1 is told by `Host`; one that opens a WebSocket to us,
 /// by `Origin`. With a token, which is wanted wherever others can reach the port, every request must carry
@@ -50,5 +54,8 @@ std::string random_token();
 
 /// The path of a target, without its query.
 std::string_view path_of(std::string_view target) noexcept;
+
+/// A text in the query of a target, with its escapes undone; empty where there is none.
+std::string query_text(std::string_view target, std::string_view name);
 
 }  // namespace feeler::viewer

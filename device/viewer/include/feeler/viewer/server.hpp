@@ -26,6 +26,8 @@ struct ServerSettings {
   std::function<void(class PageLink& page)> on_open = {};
   /// A text from a page. Returns a sentence for it, or nothing. Unset: every message is refused.
   std::function<std::string(std::string_view text)> on_text = {};
+  /// A file from a page, with its name. Returns a sentence that refuses it, or nothing. Unset: none is taken.
+  std::function<std::string(std::string name, std::string bytes)> on_file = {};
   /// Called at a steady rate; returns what all pages are told, or nothing. Unset: never.
   std::function<std::shared_ptr<const std::string>()> on_frame = {};
   double frame_rate = 60;  ///< [Hz]
@@ -45,6 +47,7 @@ class Server {
  public:
   static constexpr std::size_t most_pages = 32;
   static constexpr std::size_t longest_message = 4096;  ///< from a page [bytes]
+  static constexpr std::size_t largest_file = 64 << 20;  ///< from a page [bytes]
 
   /// Listens at once, and serves from `start` on.
   /// @throws std::runtime_error with a sentence where the address or the port cannot be had

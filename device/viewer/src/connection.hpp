@@ -1,0 +1,115 @@
+// One connection of HTTP: it is judged, then answered, becomes a WebSocket, or brings a file. A part of server.cpp.
+#pragma once
+
+#include <cstdint>
+
+#include <boost/optional.hpp>
+
+#include "page_socket.hpp"
+
+namespace feeler::viewer {
+
+/// A connection that asks for resources, until it becomes a WebSocket.
+class Connection final : public std::enable_shared_from_this<Connection> {
+ public:
+  Connection(Tcp::socket&& socket, std::shared_ptr<Shared> shared) : stream_(std::move(socket)), shared_(std::move(shared)) {}
+
+  void read() {
+    parser_.emplace();
+    parser_->header_limit(longest_header);
+    parser_->body_limit(std::uint64_t(Server::largest_file));
+    stream_.expires_after(patience);
+    http::async_read_header(stream_, buffer_, *parser_, [self = shared_from_this()](Error error, std::size_t) {
+      if (self->is_readable(error)) self->answer();
+    });
+  }
+
+ private:
+  using Response = http::response<http::string_body>;
+
+  static constexpr std::string_view socket_path = "/live";
+  static constexpr auto patience = std::chrono::seconds(20);        // with a request that does not end
+  static constexpr auto file_patience = std::chrono::seconds(120);  // with a file
+  static constexpr std::size_t longest_header = 8192;               // [bytes]
+  static constexpr int most_files = 2;                              // on the way at once
+
+  static std::string_view view(beast::string_view text) { return {text.data(), text.size()}; }
+
+  /// Refuses what cannot be read.
+  bool is_readable(const Error& error) {
+    if (error == http::error::body_limit) return refuse({413, "This file is too large: 64 MB is the most."}), false;
+    if (error == http::error::header_limit) return refuse({431, "This request is too long."}), false;
+    if (error.category() == http::make_error_code(http::error::bad_method).category() && error != http::error::end_of_stream &&
+        error != http::error::partial_message)
+      return refuse({400, "This is no HTTP request."}), false;
+    return !error;
+  }
+
+  void answer() {
+    const auto& request = parser_->get();
+    const bool is_upgrade = websocket::is_upgrade(request);
+    const Verdict verdict = shared_->gate.judge(
+        {view(request.method_string()), view(request.target()), view(request[http::field::host]), view(request[http::field::origin]), is_upgrade});
+    if (!verdict) return refuse(verdict);
+    if (request.method() == http::verb::post) return take_file();
+    if (!parser_->is_done()) return refuse({431, "This request is too long."});
+    const std::string_view path = path_of(view(request.target()));
+    if (path == socket_path) {
+      if (!is_upgrade) return refuse({400, "A WebSocket is served here."});
+      if (shared_->pages.size() >= Server::most_pages) return refuse({503, "Too many pages are open: close one and load this one again."});
+      // A Page ends the request's life here, with its connection.
+      const auto upgrade = parser_->release();
+      return std::make_shared<Page>(std::move(stream_), shared_)->open(upgrade);
+    }
+    const Resource resource = shared_->settings.resource ? shared_->settings.resource(path) : Resource{};
+    if (!resource.body) return refuse({404, "There is nothing here: the page is at /."});
+    respond(http::status::ok, resource.content_type, *resource.body, request.keep_alive());
+  }
+
+  void take_file() {
+    if (!shared_->settings.on_file) return refuse({404, "No file is taken here."});
+    if (shared_->files_on_the_way >= most_files) return refuse({503, "Other files are on the way: send this one again."});
+    ++shared_->files_on_the_way;
+    stream_.expires_after(file_patience);
+    http::async_read(stream_, buffer_, *parser_, [self = shared_from_this()](Error error, std::size_t) {
+      --self->shared_->files_on_the_way;
+      if (!self->is_readable(error)) return;
+      auto request = self->parser_->release();
+      const std::string refusal = self->shared_->settings.on_file(query_text(view(request.target()), "name"), std::move(request.body()));
+      if (!refusal.empty()) return self->refuse({400, refusal});
+      self->respond(http::status::accepted, "text/plain; charset=utf-8", "", request.keep_alive());
+    });
+  }
+
+  void refuse(const Verdict& verdict) { respond(http::status(unsigned(verdict.status)), "text/plain; charset=utf-8", verdict.reason + "\n", false); }
+
+  void respond(http::status status, const std::string& type, std::string body, bool keeps_alive) {
+    response_ = Response(status, 11);
+    response_.set(http::field::content_type, type);
+    response_.set(http::field::cache_control, "no-store");
+    response_.set("X-Content-Type-Options", "nosniff");
+    response_.set("Referrer-Policy", "no-referrer");
+    // Everything is in the page: nothing may be fetched from elsewhere, and nobody may frame it.
+    response_.set("Content-Security-Policy",
+                  "default-src 'none'; script-src 'unsafe-inline'; style-src 'unsafe-inline'; img-src data: "
+                  "blob:; connect-src 'self' ws:; "
+                  "frame-ancestors 'none'; base-uri 'none'; form-action 'none'");
+    response_.keep_alive(keeps_alive);
+    response_.body() = std::move(body);
+    response_.prepare_payload();
+    stream_.expires_after(patience);
+    http::async_write(stream_, response_, [self = shared_from_this(), keeps_alive](Error error, std::size_t) {
+      if (error) return;
+      if (keeps_alive) return self->read();
+      self->stream_.socket().shutdown(Tcp::socket::shutdown_send, error);
+    });
+  }
+
+  beast::tcp_stream stream_;
+  std::shared_ptr<Shared> shared_;
+  beast::flat_buffer buffer_;
+  boost::optional<http::request_parser<http::string_body>> parser_;  // Beast's own kind of optional
+  Response response_;
+};
+
+}  // namespace feeler::viewer
