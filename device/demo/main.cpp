@@ -1,6 +1,6 @@
 // feeler-demo: runs scenes on a haptic device, simulated or real, and reports what happened.
 //
-// Exit code 0: nothing penetrated; 1: something did; 2: the input cannot be used.
+// Exit code 0: nothing penetrated; 1: something did, or a replayed session differs; 2: the input cannot be used; 3: the program failed.
 #include <cstdio>
 #include <exception>
 

@@ -24,6 +24,7 @@ std::vector<char*> arguments_of(const std::vector<std::string>& command) {
   dup2(nowhere, STDIN_FILENO);
   dup2(nowhere, STDOUT_FILENO);
   dup2(nowhere, STDERR_FILENO);
+  for (int file = 3; file < 1024; ++file) close(file);  // a browser that kept our socket would keep our port
   if (chdir(folder) == 0) execvp(arguments[0], arguments);
   _exit(not_run);
 }

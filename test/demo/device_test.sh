@@ -66,6 +66,9 @@ if [ -x "$stand_ins/haply-stand-in" ]; then
   "$demo" --scene cavity --seconds 0.2 --device haply --device-address "$(cat address)" --serial-number 049D --out haply >output.txt 2>error.txt ||
     fail "haply: exit code $?: $(cat error.txt)"
   grep -q 'simulated' haply/scene.json && fail 'haply: the report calls it simulated'
+  "$demo" --view --port 0 --seconds 0.2 --device haply --device-address "$(cat address)" >output.txt 2>error.txt || grep -q 'built without' error.txt ||
+    fail "haply: the live view ends with exit code $?: $(cat error.txt)"
+  grep -q 'ticks: 200' output.txt || grep -q 'built without' error.txt || fail "haply: of its live view it says $(cat output.txt)"
   "$demo" --scene cavity --device haply --device-address "$(cat address)" --serial-number FFFF --out absent >output.txt 2>error.txt
   [ $? -eq 2 ] || fail 'haply: an arm that is not there is found'
   grep -q 'knows 049D' error.txt || fail "haply: of an arm that is not there it says $(cat error.txt)"

@@ -94,5 +94,28 @@ grep -q gnuplot output.txt || fail 'nothing says that gnuplot is missing'
 [ -s run/report.html ] || fail 'without gnuplot: no page'
 [ ! -e run/wrench.svg ] || fail 'a figure of the first run is still there'
 
+# The live view opens a browser where there is a desktop, and nowhere else; the program may be built without it.
+mkdir desktop
+printf '#!/bin/sh\necho "$@" >>"%s/opened.txt"\nsleep 5\n' "$scratch" >desktop/xdg-open
+chmod +x desktop/xdg-open
+for variable in DISPLAY WAYLAND_DISPLAY NO_DESKTOP; do
+  rm -f opened.txt
+  env -u DISPLAY -u WAYLAND_DISPLAY "$variable=:7" "PATH=$scratch/desktop:$PATH" "$demo" --view --port 0 --seconds 0.5 >output.txt 2>error.txt
+  code=$?
+  ! grep -q 'built without' error.txt || break
+  [ "$code" -eq 0 ] || fail "the live view with $variable: exit code $code: $(cat error.txt)"
+  if [ "$variable" = NO_DESKTOP ]; then
+    [ ! -e opened.txt ] || fail "without a desktop $(cat opened.txt) is opened"
+  else
+    for _ in $(seq 50); do [ -s opened.txt ] || sleep 0.1; done
+    address=$(grep -o 'http:[^ ]*' output.txt)
+    [ "$(cat opened.txt)" = "$address" ] || fail "of $variable it opens '$(cat opened.txt)' and not $address"
+    port=${address##*:}
+    env -u DISPLAY -u WAYLAND_DISPLAY "$demo" --view --port "${port%/}" --seconds 0.1 >output.txt 2>error.txt || fail "the browser keeps the port of a program that has ended: $(cat error.txt)"
+  fi
+done
+PATH=$scratch/empty_path DISPLAY=:7 "$demo" --view --port 0 --seconds 0.2 >output.txt 2>error.txt || grep -q 'built without' error.txt ||
+  fail "a desktop without xdg-open ends the live view: $(cat error.txt)"
+
 [ "$failures" -eq 0 ] || { echo "$failures failures"; exit 1; }
 echo 'the folder holds what it says'
