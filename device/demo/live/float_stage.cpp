@@ -15,10 +15,11 @@ std::unique_ptr<Stage> make(StageParts parts, const Tool& tool) {
 
 std::unique_ptr<Stage> make_float_stage(StageParts parts) {
   const LiveTool tool = parts.scene.tool;
-  if (const auto* box = std::get_if<Box<double>>(&tool)) return make(std::move(parts), polytope_of(*box));
   if (const auto* segment = std::get_if<Segment<double>>(&tool)) return make(std::move(parts), *segment);
   if (const auto* compound = std::get_if<Compound>(&tool)) return make(std::move(parts), *compound);
-  return make(std::move(parts), std::get<ConvexPolytope<double>>(tool));
+  const auto* const box = std::get_if<Box<double>>(&tool);
+  const ConvexPolytope<double> piece = box != nullptr ? polytope_of(*box) : std::get<ConvexPolytope<double>>(tool);
+  return make(std::move(parts), Compound({piece}));  // a compound of one piece, so that fewer renderers need compiling
 }
 
 }  // namespace feeler::demo
