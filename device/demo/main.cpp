@@ -9,6 +9,7 @@
 #include "feeler/device/session_recorder.hpp"
 #include "live/live_view.hpp"
 #include "live/replay_view.hpp"
+#include "mesh_reader.hpp"
 #include "options.hpp"
 #include "report.hpp"
 #include "scene_choice.hpp"
@@ -85,6 +86,7 @@ int run_scene(const ChosenScene& chosen, const Options& options, const std::file
 }
 
 int run(int argument_count, const char* const* arguments) {
+  if (argument_count == 3 && arguments[1] == std::string(mesh_reader_argument)) return run_mesh_reader(arguments[2]);
   const auto [options, exit_code] = read_command_line(argument_count, arguments);
   if (exit_code) return *exit_code;
   if (options.list_devices) return list_all_devices();

@@ -1,12 +1,15 @@
 // Mesh files through assimp.
 #include "mesh_file.hpp"
 
+#include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <system_error>
 #include <vector>
 
 #include <assimp/postprocess.h>
 #include <assimp/scene.h>
+#include <assimp/IOSystem.hpp>
 #include <assimp/Importer.hpp>
 
 #include "bad_input.hpp"
@@ -69,28 +72,60 @@ class MeshGatherer {
   std::vector<Eigen::Vector3i> triangles_;
 };
 
+/// Opens nothing: a mesh that somebody sent names no file of this machine, as OBJ does with its materials.
+class NoFiles final : public Assimp::IOSystem {
+ public:
+  bool Exists(const char*) const override { return false; }
+  char getOsSeparator() const override { return '/'; }
+  Assimp::IOStream* Open(const char*, const char*) override { return nullptr; }
+  void Close(Assimp::IOStream*) override {}
+};
+
+/// Everything but positions is dropped first: corners that differ in normal or colour only are then joined.
+constexpr unsigned assimp_steps = aiProcess_RemoveComponent | aiProcess_Triangulate | aiProcess_JoinIdenticalVertices;
+void drop_all_but_positions(Assimp::Importer& importer) {
+  importer.SetPropertyInteger(AI_CONFIG_PP_RVC_FLAGS, aiComponent_NORMALS | aiComponent_TANGENTS_AND_BITANGENTS | aiComponent_COLORS |
+                                                          aiComponent_TEXCOORDS | aiComponent_TEXTURES | aiComponent_MATERIALS);
+}
+
+/// @param scene  null where the file was not understood
+Mesh mesh_of(const aiScene* scene, const Assimp::Importer& importer, const std::string& name, double scale) {
+  if (scene == nullptr || scene->mRootNode == nullptr)
+    throw BadInput("The file " + name + " cannot be read as a mesh (" + importer.GetErrorString() + "): give an STL, OBJ, PLY or OFF file.");
+  MeshGatherer gatherer(*scene);
+  gatherer.add(*scene->mRootNode, aiMatrix4x4());
+  Mesh mesh = gatherer.mesh(scale);
+  if (mesh.triangles.rows() == 0) throw BadInput("The file " + name + " has no triangles: export a surface, not points or lines.");
+  if (!mesh.vertices.allFinite())
+    throw BadInput("The file " + name + " has a coordinate that is NaN or infinite: repair the mesh and export it again.");
+  return mesh;
+}
+
+/// The ending of a name that says what is in a file, in small letters.
+std::string kind_of(const std::string& name) {
+  std::string kind = std::filesystem::path(name).extension().string();
+  std::transform(kind.begin(), kind.end(), kind.begin(), [](unsigned char c) { return char(std::tolower(c)); });
+  return kind;
+}
+
 }  // namespace
 
 Mesh load_mesh(const std::filesystem::path& file, double scale) {
   check_file(file);
   Assimp::Importer importer;
-  // Everything but positions is dropped first: corners that differ in normal or colour only are then joined.
-  importer.SetPropertyInteger(AI_CONFIG_PP_RVC_FLAGS, aiComponent_NORMALS | aiComponent_TANGENTS_AND_BITANGENTS | aiComponent_COLORS |
-                                                          aiComponent_TEXCOORDS | aiComponent_TEXTURES | aiComponent_MATERIALS);
-  const aiScene* scene = importer.ReadFile(file.string(), aiProcess_RemoveComponent | aiProcess_Triangulate | aiProcess_JoinIdenticalVertices);
-  if (scene == nullptr || scene->mRootNode == nullptr) {
-    throw BadInput("The file " + file.string() + " cannot be read as a mesh (" + importer.GetErrorString() + "): give an STL, OBJ, PLY or OFF file.");
-  }
-  MeshGatherer gatherer(*scene);
-  gatherer.add(*scene->mRootNode, aiMatrix4x4());
-  Mesh mesh = gatherer.mesh(scale);
-  if (mesh.triangles.rows() == 0) {
-    throw BadInput("The file " + file.string() + " has no triangles: export a surface, not points or lines.");
-  }
-  if (!mesh.vertices.allFinite()) {
-    throw BadInput("The file " + file.string() + " has a coordinate that is NaN or infinite: repair the mesh and export it again.");
-  }
-  return mesh;
+  drop_all_but_positions(importer);
+  return mesh_of(importer.ReadFile(file.string(), assimp_steps), importer, file.string(), scale);
+}
+
+Mesh read_mesh(const std::string& bytes, const std::string& name) {
+  const std::string kind = kind_of(name);
+  if (kind != ".stl" && kind != ".obj" && kind != ".ply" && kind != ".off")
+    throw BadInput("The file " + name + " is of no kind that is read here: give an STL, OBJ, PLY or OFF file.");
+  if (bytes.empty()) throw BadInput("The file " + name + " is empty: export the mesh again.");
+  Assimp::Importer importer;
+  importer.SetIOHandler(new NoFiles);  // which the importer owns
+  drop_all_but_positions(importer);
+  return mesh_of(importer.ReadFileFromMemory(bytes.data(), bytes.size(), assimp_steps, kind.c_str() + 1), importer, name, 1.0);
 }
 
 }  // namespace feeler::demo

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
 
 #include "feeler/core/scalar.hpp"
 
@@ -20,5 +21,10 @@ struct Mesh {
 /// @throws BadInput for a file that is missing, empty, unreadable, without triangles, or with a coordinate
 /// that is not finite
 Mesh load_mesh(const std::filesystem::path& file, double scale);
+
+/// The same of a file that somebody sent. It makes nobody open another file.
+///
+/// @param name  of the file; its ending says what it is
+Mesh read_mesh(const std::string& bytes, const std::string& name);
 
 }  // namespace feeler::demo

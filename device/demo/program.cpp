@@ -2,8 +2,12 @@
 #include "program.hpp"
 
 #include <fcntl.h>
+#include <spawn.h>
 #include <sys/wait.h>
 #include <unistd.h>
+
+#include <cstdio>
+#include <memory>
 
 namespace feeler::demo {
 
@@ -51,6 +55,31 @@ void start_program(const std::vector<std::string>& command) {
     _exit(0);
   }
   waitpid(child, nullptr, 0);
+}
+
+std::optional<std::string> filter(const std::vector<std::string>& command, const std::string& input) {
+  auto closed = [](std::FILE* file) { std::fclose(file); };
+  const std::unique_ptr<std::FILE, decltype(closed)> in(std::tmpfile(), closed), out(std::tmpfile(), closed);
+  if (!in || !out || std::fwrite(input.data(), 1, input.size(), in.get()) != input.size()) return {};
+  std::rewind(in.get());
+  posix_spawn_file_actions_t actions;
+  posix_spawn_file_actions_init(&actions);
+  posix_spawn_file_actions_adddup2(&actions, fileno(in.get()), STDIN_FILENO);
+  posix_spawn_file_actions_adddup2(&actions, fileno(out.get()), STDOUT_FILENO);
+  posix_spawn_file_actions_addopen(&actions, STDERR_FILENO, "/dev/null", O_WRONLY, 0);
+  posix_spawn_file_actions_addclosefrom_np(&actions, 3);
+  const std::vector<char*> arguments = arguments_of(command);
+  pid_t child = 0;
+  // No fork: the servo loop would have to wait for its own pages.
+  const bool has_begun = posix_spawnp(&child, arguments[0], &actions, nullptr, arguments.data(), environ) == 0;
+  posix_spawn_file_actions_destroy(&actions);
+  int status = 0;
+  if (!has_begun || waitpid(child, &status, 0) != child || !WIFEXITED(status) || WEXITSTATUS(status) != 0) return {};
+  std::string output;
+  std::rewind(out.get());
+  char piece[65536];
+  while (const std::size_t size = std::fread(piece, 1, sizeof piece, out.get())) output.append(piece, size);
+  return output;
 }
 
 }  // namespace feeler::demo

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -13,5 +14,8 @@ int run_program(const std::filesystem::path& folder, const std::vector<std::stri
 
 /// Starts a program of the search path and does not wait for it; nothing happens where it cannot be run.
 void start_program(const std::vector<std::string>& command);
+
+/// Runs a program with bytes as its input, and returns its output; nothing where it fails. The rest of this program runs on undisturbed.
+std::optional<std::string> filter(const std::vector<std::string>& command, const std::string& input);
 
 }  // namespace feeler::demo

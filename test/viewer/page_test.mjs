@@ -2,7 +2,7 @@
 // usage: node page_test.mjs feeler-demo scratch-folder modules-folder chromium [folder-of-stand-ins]
 import assert from 'node:assert/strict';
 import { spawn } from 'node:child_process';
-import { existsSync, mkdirSync, readFileSync, rmSync } from 'node:fs';
+import { existsSync, mkdirSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
 import { createServer } from 'node:net';
 import { dirname, join } from 'node:path';
 import { pathToFileURL } from 'node:url';
@@ -51,6 +51,18 @@ async function choose(page, scene) {
   const before = (await frame(page)).stage;
   await page.click(`#gallery [data-scene="${scene}"]`);
   await page.waitForFunction((stage) => feeler.timeline.latest.stage > stage && feeler.stage.stage === feeler.timeline.latest.stage, before, { timeout: 60000 });
+}
+
+/** A cube, closed, its faces of four corners. */
+const blockObj = (side) => [
+  ...[0, 1, 2, 3, 4, 5, 6, 7].map((i) => `v ${[1, 2, 4].map((bit) => (i & bit ? side / 2 : -side / 2)).join(' ')}`),
+  ...['1 3 4 2', '5 6 8 7', '1 2 6 5', '3 7 8 4', '1 5 7 3', '2 4 8 6'].map((face) => `f ${face}`), ''].join('\n');
+
+/** Until it is on show, and its sentence is said. */
+async function openMesh(page, name, text) {
+  await page.setInputFiles('#open-mesh', { name, mimeType: 'model/obj', buffer: Buffer.from(text) });
+  await page.waitForFunction((title) => feeler.stage.title === title && feeler.stage.stage === feeler.timeline.latest.stage
+    && document.getElementById('sentence').textContent.startsWith(title) && !document.getElementById('sentence').hidden, name);
 }
 
 const tests = {
@@ -139,7 +151,7 @@ const tests = {
   },
 
   async every_scene_shows_its_motion(page) {
-    const scenes = await page.evaluate(() => feeler.greeting.gallery.map(({ id }) => id));
+    const scenes = await page.evaluate(() => feeler.live.greeting.gallery.map(({ id }) => id));
     assert.ok(scenes.includes('cavity') && scenes.includes('spline') && scenes.includes('shaft'));
     for (const scene of scenes) {
       await choose(page, scene);
@@ -162,12 +174,83 @@ const tests = {
     await page.waitForFunction(() => feeler.stage.tool_kind === 'pebble' && feeler.stage.tool[0].vertices.length > 8);
     await page.selectOption('#settings select[name=scalar]', 'float');
     await page.waitForFunction(() => feeler.stage.scalar === 'float');
-    await page.evaluate(() => feeler.source.send({ type: 'scene', scene: 'moon' }));
+    await page.evaluate(() => feeler.live.source.send({ type: 'scene', scene: 'moon' }));
     await page.waitForFunction(() => /no scene moon/.test(document.getElementById('sentence').textContent));
-    await page.evaluate(() => feeler.source.send({ type: 'hand', stage: 1, position: [0, 0, 1e9], orientation: [1, 0, 0, 0] }));
+    await page.evaluate(() => feeler.live.source.send({ type: 'hand', stage: 1, position: [0, 0, 1e9], orientation: [1, 0, 0, 0] }));
     await page.waitForFunction(() => /out of range/.test(document.getElementById('sentence').textContent));
     const { time } = await frame(page);
     await page.waitForFunction((t) => feeler.timeline.latest.time > t, time);
+  },
+
+  async an_own_mesh_is_opened_felt_and_put_in_the_gallery(page) {
+    await openMesh(page, 'block.obj', blockObj(0.05));
+    const sentence = await page.textContent('#sentence');
+    assert.match(sentence, /block\.obj: 12 triangles on 8 vertices; a closed surface/);
+    assert.match(await page.textContent('#gallery button:first-child'), /block\.obj/);
+    assert.equal(await page.getAttribute('#gallery button:first-child', 'aria-current'), 'true');
+    const before = await frame(page);
+    assert.equal(before.mode, 'still');
+    assert.ok(before.force < 1e-6, 'it begins free');
+    await page.click('#show');
+    await page.waitForFunction(() => Math.hypot(...feeler.timeline.latest.force) > 0.5);
+    const inside = await page.evaluate(() => {
+      const { graphic } = feeler.timeline.latest, { camera } = feeler.view, [Vector3, Quaternion] = [camera.position.constructor, camera.quaternion.constructor];
+      const corners = feeler.stage.tool[0].vertices.map((v) => new Vector3(...v).applyQuaternion(new Quaternion(...graphic.quaternion)).add(new Vector3(...graphic.position)));
+      return Math.max(...corners.map((p) => 0.025 - Math.max(...p.toArray().map(Math.abs))));
+    });
+    assert.ok(inside < 1e-11, `a corner is ${inside} m in the block`);
+    await choose(page, 'cavity');
+    await page.click('#gallery button:first-child');
+    await page.waitForFunction(() => feeler.stage.title === 'block.obj');
+  },
+
+  async millimetres_are_guessed_said_and_can_be_chosen_otherwise(page) {
+    await openMesh(page, 'large <b>&.obj', blockObj(50));
+    assert.match(await page.textContent('#sentence'), /large <b>&\.obj: .*in millimetres/);
+    assert.equal(await page.inputValue('#settings select[name=variant]'), 'in millimetres');
+    const width = () => page.evaluate(() => 2 * feeler.view.object.halfSize.x);
+    assert.ok(Math.abs((await width()) - 0.05) < 1e-6);
+    await page.selectOption('#settings select[name=variant]', 'in inches');
+    await page.waitForFunction(() => feeler.stage.variant === 'in inches' && Math.abs(2 * feeler.view.object.halfSize.x - 50 * 0.0254) < 1e-5);
+  },
+
+  async a_mesh_can_be_dropped_and_the_same_name_takes_its_place(page) {
+    const entries = () => page.evaluate(() => feeler.live.greeting.gallery.filter(({ title }) => title === 'block.obj').length);
+    assert.equal(await entries(), 1);
+    const before = (await frame(page)).stage;
+    await page.evaluate((text) => {
+      const transfer = new DataTransfer();
+      transfer.items.add(new File([text], 'block.obj'));
+      document.body.dispatchEvent(new DragEvent('drop', { dataTransfer: transfer, bubbles: true }));
+    }, blockObj(0.02));
+    await page.waitForFunction((stage) => feeler.stage.stage > stage && feeler.stage.title === 'block.obj', before);
+    assert.equal(await entries(), 1);
+  },
+
+  async files_that_are_no_mesh_are_refused_in_words_and_the_loop_goes_on(page) {
+    const { stage } = await frame(page);
+    const bad = {
+      'empty.stl': ['', /is empty/], 'notes.txt': ['hello', /of no kind that is read here/], 'noise.ply': ['ply\nnoise', /cannot be read as a mesh/],
+      'points.obj': ['v 0 0 0\nv 1 0 0\n', /cannot be read as a mesh|no triangles/], 'nan.off': ['OFF\n3 1 0\nnan 0 0\n1 0 0\n0 1 0\n3 0 1 2\n', /NaN|cannot be read/],
+      'far.off': ['OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 9\n', /far.off(:| cannot| has)/], 'huge.off': ['OFF\n4000000000 4000000000 0\n', /cannot be read/],
+      'short.off': ['OFF\n8 12 0\n3 0 2 3\n3 0 3 1\n3 4 5 7\n3 4 7 6\n3 0 1 5\n3 0 5 4\n3 2 6 7\n3 2 7 3', /cannot be read: its reader failed/],  // ends its reader
+      'materials.obj': [`mtllib /dev/zero\n${blockObj(0.03)}`, /materials.obj: 12 triangles/],
+    };
+    for (const [name, [text, answer]] of Object.entries(bad)) {
+      await page.setInputFiles('#open-mesh', { name, mimeType: 'model/any', buffer: Buffer.from(text) });
+      await page.waitForFunction(([source, nameIn]) => {
+        const { textContent } = document.getElementById('sentence');
+        return new RegExp(source).test(textContent) && textContent.includes(nameIn);
+      }, [answer.source, name]).catch(async () => assert.fail(`${name}: ${await page.textContent('#sentence')}`));
+    }
+    const large = join(scratch, 'large.stl');
+    writeFileSync(large, Buffer.alloc(64 * 2 ** 20 + 1));
+    await page.setInputFiles('#open-mesh', large);
+    await page.waitForFunction(() => /large.stl is too large: 64 MB/.test(document.getElementById('sentence').textContent));
+    const { time } = await frame(page);
+    await page.waitForFunction((t) => feeler.timeline.latest.time > t, time);
+    assert.ok((await frame(page)).stage >= stage);
+    complaints.length = 0;  // the browser notes each refusal
   },
 
   async pausing_keeps_the_moment_and_scrolls_back(page) {
@@ -205,8 +288,17 @@ const tests = {
     const other = await open(page.url());
     await other.setInputFiles('#open-recording', [recording, recording]);
     await other.waitForFunction(() => feeler.recordings.length === 2 && feeler.panes[1].view.framesDrawn > 0);
+    await other.evaluate(() => {
+      const slider = document.getElementById('time');
+      slider.value = (feeler.timeline.begin + feeler.timeline.end) / 2;
+      slider.dispatchEvent(new Event('input'));
+    });
+    const { cursor, middle } = await other.evaluate(() => ({ cursor: feeler.player.cursor, middle: (feeler.timeline.begin + feeler.timeline.end) / 2 }));
+    assert.ok(Math.abs(cursor - middle) < 2e-3, 'the slider belongs to the recording');
     await other.setInputFiles('#open-recording', { name: 'bad.json', mimeType: 'application/json', buffer: Buffer.from('{}') });
     await other.waitForFunction(() => /no recording/.test(document.getElementById('sentence').textContent));
+    await other.click('#live');  // the loop runs on
+    await other.waitForFunction(() => window.feeler?.player?.isLive && feeler.timeline.latest?.time > 0);
     await other.context().close();
   },
 
@@ -381,7 +473,7 @@ await run('a_real_device_is_the_hand_and_the_page_only_looks', async () => {
   await page.mouse.down();
   await page.mouse.move(at.x, at.y - 100, { steps: 5 });
   await page.mouse.up();
-  await page.evaluate(() => feeler.source.playMotion());
+  await page.evaluate(() => feeler.live.source.playMotion());
   await page.waitForFunction(() => /so no page moves it/.test(document.getElementById('sentence').textContent));
   await page.waitForTimeout(200);
   assert.deepEqual((await frame(page)).haptic, haptic);

@@ -2,10 +2,9 @@
 #include "live/live_view.hpp"
 
 #include <chrono>
-#include <condition_variable>
 #include <cstdio>
+#include <functional>
 #include <memory>
-#include <mutex>
 #include <optional>
 #include <string>
 #include <utility>
@@ -16,89 +15,17 @@
 #include "feeler/viewer/server.hpp"
 #include "feeler/viewer/wire.hpp"
 #include "live/interrupt.hpp"
+#include "live/own_mesh.hpp"
 #include "live/real_hand.hpp"
 #include "live/serving.hpp"
+#include "live/stage_builder.hpp"
 #include "live/stage_description.hpp"
 #include "live/stage_switch.hpp"
-#include "live/tool_choice.hpp"
+#include "live/wishes.hpp"
 #include "real_device.hpp"
 
 namespace feeler::demo {
 namespace {
-
-using Text = std::shared_ptr<const std::string>;
-
-Text shared_text(std::string text) { return std::make_shared<const std::string>(std::move(text)); }
-
-/// What pages ask to be built, from the server's thread to this one. The latest wish counts.
-class Wishes {
- public:
-  void add(viewer::SceneRequest request) {
-    const std::lock_guard lock(mutex_);
-    wish_ = std::move(request);
-    has_come_.notify_one();
-  }
-  std::optional<viewer::SceneRequest> wait_for(std::chrono::milliseconds time) {
-    std::unique_lock lock(mutex_);
-    has_come_.wait_for(lock, time, [this] { return wish_.has_value(); });
-    return std::exchange(wish_, std::nullopt);
-  }
-
- private:
-  std::mutex mutex_;
-  std::condition_variable has_come_;
-  std::optional<viewer::SceneRequest> wish_;
-};
-
-/// A stage as pages are told of it.
-struct Shown {
-  std::shared_ptr<Stage> stage;
-  Text text;
-  Text mesh;
-};
-
-/// Makes stages from wishes.
-class StageBuilder {
- public:
-  /// @param device  a real one that is to feel the stages; none where the hand is simulated
-  StageBuilder(const std::vector<GalleryEntry>& gallery, const Options& options, const Device* device)
-      : gallery_(gallery), period_(1 / options.rate), workspace_(real_workspace(options.workspace_scale)), device_(device) {}
-
-  /// @throws BadInput or std::invalid_argument with a sentence for the page
-  Shown build(const viewer::SceneRequest& wish) {
-    const GalleryEntry* entry = find_entry(gallery_, wish.scene);
-    if (entry == nullptr) throw BadInput("There is no scene " + wish.scene + ".");
-    LiveScene scene = make_scene(*entry, wish.variant, wish.clearance);
-    choose_tool(scene, wish.tool);
-    Settings<double> settings = scene.setting.settings();
-    if (wish.stiffness) {
-      const double length = scene.setting.length;
-      settings.stiffness = Stiffness<double>::uniform(*wish.stiffness, *wish.stiffness * length * length);
-    }
-    if (wish.margin) settings.margin = *wish.margin;
-    if (device_ != nullptr) {
-      const double share = renderable_share(settings.stiffness, device_->specification(), WorkspaceMap(workspace_));
-      settings.stiffness.translational *= share;
-      settings.stiffness.rotational *= share;
-    }
-    const RenderChoice choice{wish.method.empty() ? "closest" : wish.method, wish.scalar.empty() ? "double" : wish.scalar};
-    Shown shown;
-    shown.stage = make_stage({++number_, std::move(scene), settings, choice, period_, device_ != nullptr});
-    const std::string variant = wish.clearance ? "" : wish.variant.empty() ? entry->variants.front().label : wish.variant;
-    shown.text = shared_text(stage_text(number_, shown.stage->scene(), {settings, choice},
-                                        {entry->id, entry->title, entry->hint, variant, wish.clearance, wish.tool.empty() ? "own" : wish.tool}));
-    const scenes::Setting& setting = shown.stage->scene().setting;
-    shown.mesh = shared_text(viewer::encoded_mesh(number_, setting.vertices, setting.triangles));
-    return shown;
-  }
-
- private:
-  const std::vector<GalleryEntry>& gallery_;
-  double period_;
-  WorkspaceSettings workspace_;
-  const Device* device_;
-  int number_ = 0;
-};
 
 /// The server's side: watches the loop through the feed and answers pages. All functions run on the server's thread.
 class Watcher {
@@ -123,11 +50,15 @@ class Watcher {
       page.send_binary(shown_.mesh);
     };
     settings.on_text = [this](std::string_view text) { return answer(text); };
+    settings.on_file = [this](std::string name, std::string bytes) {
+      return wishes_.add(SentFile{std::move(name), std::move(bytes)}) ? "" : "Another file is being read: open this one again.";
+    };
     settings.on_frame = [this] { return frame(); };
     return settings;
   }
 
   void show(Shown shown) { shown_ = std::move(shown); }
+  void greet_with(Text hello) { hello_ = std::move(hello); }
 
  private:
   std::string answer(std::string_view text) {
@@ -171,29 +102,89 @@ viewer::SceneRequest first_wish(const Options& options, const std::vector<Galler
   return wish;
 }
 
-Shown build_first(StageBuilder& builder, const viewer::SceneRequest& wish) {
+const GalleryEntry& entry_of(const std::vector<GalleryEntry>& gallery, const std::string& id) {
+  if (const GalleryEntry* entry = find_entry(gallery, id)) return *entry;
+  throw BadInput("There is no scene " + id + ".");
+}
+
+Shown build_first(StageBuilder& builder, const std::vector<GalleryEntry>& gallery, const viewer::SceneRequest& wish) {
   try {
-    return builder.build(wish);
+    return builder.build(entry_of(gallery, wish.scene), wish);
   } catch (const std::invalid_argument& refusal) {
     throw BadInput(refusal.what());
   }
 }
 
+/// Builds what pages wish for, and puts it on show.
+class Director {
+ public:
+  Director(std::vector<GalleryEntry>& gallery, StageBuilder& builder, StageSwitch& stages, Watcher& watcher, viewer::Server& server,
+           std::function<Text()> hello, std::function<bool()> is_running)
+      : gallery_(gallery),
+        builder_(builder),
+        stages_(stages),
+        watcher_(watcher),
+        server_(server),
+        hello_(std::move(hello)),
+        is_running_(std::move(is_running)) {}
+
+  void fulfil(const Wish& wish) {
+    try {
+      std::visit([this](const auto& which) { fulfil(which); }, wish);
+    } catch (const std::exception& refusal) {
+      tell("refusal", refusal.what());
+    }
+  }
+
+ private:
+  void fulfil(const viewer::SceneRequest& request) { show(builder_.build(entry_of(gallery_, request.scene), request)); }
+
+  void fulfil(const SentFile& file) {
+    GalleryEntry entry = own_mesh_entry(file, ++own_meshes_);
+    const Shown shown = builder_.build(entry, {});
+    const std::string sentence = sentence_of(entry, shown.stage->object().report());
+    put_own_mesh_first(gallery_, std::move(entry));
+    server_.post([&watcher = watcher_, hello = hello_()] { watcher.greet_with(hello); });
+    server_.broadcast_text(shared_text(gallery_text(gallery_)));
+    show(shown);
+    tell("note", sentence);
+  }
+
+  void show(const Shown& shown) {
+    server_.post([&watcher = watcher_, shown] { watcher.show(shown); });
+    server_.broadcast_text(shown.text);
+    server_.broadcast_binary(shown.mesh);
+    stages_.offer(shown.stage, is_running_);
+  }
+
+  void tell(const char* type, const std::string& sentence) { server_.broadcast_text(shared_text(sentence_text(type, sentence))); }
+
+  std::vector<GalleryEntry>& gallery_;
+  StageBuilder& builder_;
+  StageSwitch& stages_;
+  Watcher& watcher_;
+  viewer::Server& server_;
+  std::function<Text()> hello_;
+  std::function<bool()> is_running_;
+  int own_meshes_ = 0;
+};
+
 }  // namespace
 
 void run_live_view(const Options& options) {
-  const std::vector<GalleryEntry> entries = gallery(options);
+  std::vector<GalleryEntry> entries = gallery(options);
   const std::unique_ptr<Device> real_device = open_real_device(options.device, choice_of(options));
   if (real_device) check_rate(real_device->specification(), options.rate);
   const std::string device_name = real_device ? real_device->specification().name : "";
-  StageBuilder builder(entries, options, real_device.get());
-  Shown first = build_first(builder, first_wish(options, entries));
+  StageBuilder builder(options, real_device.get());
+  Shown first = build_first(builder, entries, first_wish(options, entries));
+  const auto hello = [&] { return shared_text(hello_text(entries, options.rate, device_name)); };
 
   viewer::LiveFeed feed;
   Wishes wishes;
   StageSwitch stages(first.stage);
   const int first_number = first.stage->number();
-  Watcher watcher(feed, wishes, device_name, shared_text(hello_text(entries, options.rate, device_name)), std::move(first));
+  Watcher watcher(feed, wishes, device_name, hello(), std::move(first));
   const std::unique_ptr<viewer::Server> server = serve(options, watcher.settings());
   if (options.plays) feed.ask({viewer::HandMode::motion, first_number, {}});
 
@@ -211,18 +202,9 @@ void run_live_view(const Options& options) {
   server->start();
   announce(*server, "live view");
 
+  Director director(entries, builder, stages, watcher, *server, hello, [&] { return loop.is_running(); });
   while (loop.is_running() && !interrupt.has_come()) {
-    const std::optional<viewer::SceneRequest> wish = wishes.wait_for(std::chrono::milliseconds(50));
-    if (!wish) continue;
-    try {
-      const Shown shown = builder.build(*wish);
-      server->post([&watcher, shown] { watcher.show(shown); });
-      server->broadcast_text(shown.text);
-      server->broadcast_binary(shown.mesh);
-      stages.offer(shown.stage, [&] { return loop.is_running(); });
-    } catch (const std::exception& refusal) {
-      server->broadcast_text(shared_text(sentence_text("refusal", refusal.what())));
-    }
+    if (const std::optional<Wish> wish = wishes.wait_for(std::chrono::milliseconds(50))) director.fulfil(*wish);
   }
   loop.stop();
   const ServoReport& report = loop.wait();

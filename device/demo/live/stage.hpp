@@ -51,10 +51,10 @@ class Stage {
   int number() const noexcept { return parts_.number; }
   const LiveScene& scene() const noexcept { return parts_.scene; }
   const Settings<double>& settings() const noexcept { return parts_.settings; }
+  const TriangleMesh<double>& object() const noexcept { return *object_; }
   ContactWatch& watch() noexcept { return watch_; }  ///< the watcher's
 
  protected:
-  const TriangleMesh<double>& object() const noexcept { return *object_; }
   viewer::HandMode mode() const noexcept { return parts_.is_on_real_device ? viewer::HandMode::device : guide_.mode(); }
   std::int64_t missed_ = 0;
 

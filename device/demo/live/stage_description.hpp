@@ -29,6 +29,8 @@ struct StageSettings {
 /// The first text of a page: version, gallery, and what can be chosen.
 /// @param device  name of a real one that is the hand; empty where the page is
 std::string hello_text(const std::vector<GalleryEntry>& gallery, double rate, const std::string& device);
+/// The gallery alone, when it has changed.
+std::string gallery_text(const std::vector<GalleryEntry>& gallery);
 /// A stage: its scene, settings and tool.
 std::string stage_text(int number, const LiveScene& scene, const StageSettings& settings, const StageOrigin& origin);
 /// One sentence for the user; `type` is note or refusal.

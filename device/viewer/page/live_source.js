@@ -3,7 +3,7 @@ import { readMessage } from './protocol.js';
 
 const patience = [250, 500, 1000, 2000];  // between attempts [ms]
 
-/** Hands on what the server tells, and tells it what the user does. Listeners: hello, stage, mesh, frame, sentence, connection. */
+/** Hands on what the server tells, and tells it what the user does. Listeners: hello, gallery, stage, mesh, frame, sentence, connection. */
 export class LiveSource {
   constructor(listeners) {
     this.listeners = listeners;
@@ -13,9 +13,10 @@ export class LiveSource {
   }
 
   connect() {
+    if (this.isClosed) return;
     const url = new URL('/live', location.href);
     url.protocol = 'ws:';
-    url.search = location.search;
+    url.search = location.search;  // with the token
     this.socket = new WebSocket(url);
     this.socket.binaryType = 'arraybuffer';
     this.socket.onopen = () => {
@@ -27,6 +28,7 @@ export class LiveSource {
   }
 
   close() {
+    this.isClosed = true;
     this.socket.onclose = null;
     this.socket.close();
   }
@@ -49,7 +51,7 @@ export class LiveSource {
 
   readText(message) {
     if (message.type === 'stage') this.stage = message.stage;
-    if (message.type === 'hello' || message.type === 'stage') this.listeners[message.type](message);
+    if (['hello', 'gallery', 'stage'].includes(message.type)) this.listeners[message.type](message);
     else this.listeners.sentence(message.type, message.text ?? message.reason);
   }
 
@@ -68,5 +70,18 @@ export class LiveSource {
   }
   choose(request) {
     this.send({ type: 'scene', ...request });
+  }
+  /** A mesh, to become a scene. @throws Error with a sentence where it is not taken */
+  async sendFile(file) {
+    const url = new URL('/file', location.href);
+    url.search = location.search;
+    url.searchParams.set('name', file.name);
+    let response;
+    try {
+      response = await fetch(url, { method: 'POST', body: file });
+    } catch {
+      throw new Error(`${file.name} could not be sent: is the connection lost, or the file gone?`);
+    }
+    if (!response.ok) throw new Error(await response.text());
   }
 }

@@ -1,23 +1,17 @@
 // The page: a live view of the servo loop, or recordings that need no server.
-import { GamepadHand } from './gamepad.js';
-import { HeldPose, PointerHand } from './hand.js';
-import { KeyboardHand } from './keyboard.js';
-import { LiveSource } from './live_source.js';
+import { LiveSession } from './live_session.js';
 import { palettes } from './palette.js';
 import { Pane } from './pane.js';
-import { defaultLook, markScene, sceneLooks, showGallery, showLook, showSettings } from './panel.js';
+import { defaultLook, sceneLooks, showLook } from './panel.js';
 import { Player } from './player.js';
-import { flags, sampleIndex, sampleWords } from './protocol.js';
 import { readRecording, writeRecording } from './recording.js';
 import { csvOf, download, pngOf } from './save.js';
 import { countTicks, Strips } from './strips.js';
 import { Timeline } from './timeline.js';
-import { traceSeconds } from './trace.js';
 
 const $ = (id) => document.getElementById(id);
 const stripPeriod = 120, slowStripPeriod = 300;  // between drawings of the strips, and where pixels are slow [ms]
 const restAfter = 500;     // without a new picture [ms]
-const fadingPeriod = 0.25;  // between pictures in which nothing but the trace changes [s]
 
 class Page {
   constructor() {
@@ -72,12 +66,12 @@ class Page {
     this.isDirty = true;
   }
 
-  /** A sentence that goes by itself, unless it is asked to stay. */
+  /** A sentence that goes when it has been read, unless it is asked to stay. */
   say(text, stays = false) {
     clearTimeout(this.sentenceTimer);
     $('sentence').textContent = text;
     $('sentence').hidden = !text;
-    if (text && !stays) this.sentenceTimer = setTimeout(() => ($('sentence').hidden = true), 6000);
+    if (text && !stays) this.sentenceTimer = setTimeout(() => ($('sentence').hidden = true), Math.max(6000, 60 * text.length));
   }
 
   makePlayer(isReplay) {
@@ -89,112 +83,21 @@ class Page {
     };
   }
 
-  // Live
-
   goLive() {
     this.makePlayer(false);
-    this.source = new LiveSource({
-      hello: (hello) => this.hello(hello), stage: (stage) => this.setStage(stage), mesh: (mesh) => this.setMesh(mesh),
-      frame: (frame) => this.addFrame(frame), sentence: (_, text) => this.say(text), connection: (state) => this.showConnection(state),
-    });
-    this.held = new HeldPose(this.view, this.source);
-    const pointer = new PointerHand(this.held);
-    this.hands = [pointer, new KeyboardHand(this.held, this.view.canvas), new GamepadHand(this.held)];
-    $('finger-turns').onclick = () => {
-      pointer.turns = !pointer.turns;
-      $('finger-turns').setAttribute('aria-pressed', String(pointer.turns));
-    };
-    $('show').onclick = () => this.source.playMotion();
-    $('still').onclick = () => this.source.stopHand();
+    this.live = new LiveSession(this);
   }
-
-  /** What to do first, until it is done. @param device  the name of a real one that is the hand, or null */
-  invite(device) {
-    if (this.isInvited) return;
-    this.isInvited = true;
-    this.say(device ? `You hold the ${device}: press the tool against a wall with its handle; while its first button is down the handle moves alone.`
-      : 'Drag the tool against a wall, with the mouse, a finger or the arrow keys; ? tells every way.', true);
-    this.view.canvas.addEventListener('pointerdown', () => this.say(''), { once: true });
-    this.view.canvas.addEventListener('keydown', () => this.say(''), { once: true });
-  }
-
-  hello(hello) {
-    this.greeting = hello;
-    this.held.isElsewhere = hello.device !== null;
-    document.body.classList.toggle('on-device', hello.device !== null);
-    this.invite(hello.device);
-    this.timeline.restart(hello.rate);
-    showGallery($('gallery'), hello.gallery, (request) => this.choose(request));
-  }
-
-  choose(request) {
-    this.say('Building the scene …', true);
-    this.source.choose(request);
-  }
-
-  setStage(stage) {
-    if (this.stage) this.say('');
-    const isSameScene = this.stage?.scene === stage.scene;
-    this.stage = stage;
-    this.panes[0].setStage(stage);
-    document.title = `Feeler: ${stage.title}`;
-    markScene($('gallery'), stage.scene);
-    showSettings($('settings'), this.greeting, stage, (request) => this.choose(request));
-    if (!isSameScene) this.setLook({ ...defaultLook, ...sceneLooks[stage.scene] });
-    this.player.goLive();
-  }
-
-  setMesh(mesh) {
-    if (mesh.stage !== this.stage.stage) return;
-    this.meshBuffer = mesh.buffer;
-    this.view.setMesh(mesh);
-  }
-
-  addFrame(frame) {
-    const last = this.timeline.latest;
-    this.noteEvents(last, frame);
-    this.timeline.add(frame);
-    if (this.player.isLive && !this.rests(frame)) this.showMoment();
-  }
-
-  /** Whether a frame shows what is on show: then none is drawn, but a few a second while the trace fades. */
-  rests(frame) {
-    const shown = this.view.frame;
-    const seen = ({ haptic, graphic, force, torque, status }) => [haptic.position, haptic.quaternion, graphic.position, graphic.quaternion, force, torque, status].join();
-    if (!shown || shown.stage !== frame.stage || seen(shown) !== seen(frame)) {
-      this.lastMove = frame.time;
-      return false;
-    }
-    return frame.time - shown.time < fadingPeriod || frame.time - this.lastMove > traceSeconds + fadingPeriod;
-  }
-
-  noteEvents(last, frame) {
-    const types = (f) => f.contacts.map((c) => c.type).join();
-    if (last && last.stage === frame.stage && types(last) !== types(frame)) this.timeline.addEvent(frame.time, 'switch');
-    for (let at = 0; at < frame.samples.length; at += sampleWords) {
-      const word = frame.samples[at + sampleIndex.flags];
-      if (word & flags.folded) this.timeline.addEvent(frame.samples[at], 'fold');
-      if (!(word & flags.converged)) this.timeline.addEvent(frame.samples[at], 'budget');
-    }
-  }
-
-  showConnection(state) {
-    $('connection').className = state;
-    $('connection').querySelector('.text').textContent = state === 'open' ? 'connected' : 'connection lost: trying again …';
-  }
-
-  // Replay
 
   /** @param recordings  one, or two to be seen side by side */
   replay(recordings) {
-    this.source?.close();
-    this.source = null;
+    this.live?.end();
     document.body.classList.add('replay');
     this.recordings = recordings.slice(0, 2);
     this.timeline = this.recordings[0].timeline;
     if (this.recordings.length === 2 && this.panes.length === 1) this.addPane();
     $('second').hidden = this.recordings.length < 2;
     this.makePlayer(true);
+    if (this.live) this.offerWayBack();
     this.recordings.forEach(({ stage, mesh, timeline }, i) => {
       const pane = this.panes[i];
       pane.timeline = timeline;
@@ -208,6 +111,12 @@ class Page {
     this.setLook({ ...defaultLook, ...sceneLooks[this.stage.scene] });
     this.strips.window = Math.min(10, Math.max(1, this.timeline.end - this.timeline.begin));
     this.player.seek(this.timeline.begin);
+  }
+
+  /** From recordings to the loop that runs on. */
+  offerWayBack() {
+    $('live').hidden = false;
+    $('live').onclick = () => location.reload();
   }
 
   addPane() {
@@ -227,6 +136,11 @@ class Page {
   }
 
   async openFiles(files) {
+    const meshes = files.filter(({ name }) => !/\.json$/i.test(name));
+    if (meshes.length > 0) {
+      if (this.live && this.recordings.length === 0) return this.live.openMesh(meshes[0]);
+      return this.say('A mesh is opened in the live view: ./run demo --view.');
+    }
     try {
       const opened = [];
       for (const file of files) opened.push(readRecording(await file.text()));
@@ -235,9 +149,8 @@ class Page {
     } catch (problem) {
       this.say(problem.message);
     }
+    return undefined;
   }
-
-  // Both
 
   setLook(values) {
     showLook($('look'), values, (changed) => this.applyLook(changed));

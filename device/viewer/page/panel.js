@@ -32,12 +32,12 @@ function check(label, name, checked) {
 }
 
 /** The scenes, a button each. */
-export function showGallery(nav, gallery, choose) {
-  nav.replaceChildren(...gallery.map(({ id, title, hint }) =>
+export function showGallery(list, gallery, choose) {
+  list.replaceChildren(...gallery.map(({ id, title, hint }) =>
     element('button', { type: 'button', onclick: () => choose({ scene: id }), 'data-scene': id }, title, element('small', { textContent: hint }))));
 }
-export function markScene(nav, scene) {
-  for (const button of nav.children) button.setAttribute('aria-current', String(button.dataset.scene === scene));
+export function markScene(list, scene) {
+  for (const button of list.children) button.setAttribute('aria-current', String(button.dataset.scene === scene));
 }
 
 const ownClearance = 'own';

@@ -10,11 +10,11 @@ export class Player {
     this.rate = 0;
     this.elements = elements;
     this.onChange = () => {};
-    elements.pause.addEventListener('click', () => this.togglePause());
-    elements.live.addEventListener('click', () => this.goLive());
-    elements.slider.addEventListener('input', () => this.seek(Number(elements.slider.value)));
-    elements.back.addEventListener('click', () => this.step(-1));
-    elements.forth.addEventListener('click', () => this.step(1));
+    elements.pause.onclick = () => this.togglePause();  // instead of the player before
+    elements.live.onclick = () => this.goLive();
+    elements.slider.oninput = () => this.seek(Number(elements.slider.value));
+    elements.back.onclick = () => this.step(-1);
+    elements.forth.onclick = () => this.step(1);
     elements.live.hidden = isReplay;
     this.update();
   }
