@@ -194,6 +194,26 @@ BOOST_AUTO_TEST_CASE(blocks_that_share_faces_edges_and_sheets_are_told_one_by_on
   BOOST_TEST(MeshInterior(mesh).contains(mesh, Vector(4.5, 0, 0)));
 }
 
+BOOST_AUTO_TEST_CASE(of_two_blocks_that_share_a_face_a_triangle_that_is_missing_or_turned_tells_for_both) {
+  const ClosedMesh both = block({0, 0, 0}, {1, 1, 1}).with(block({1, 0, 0}, {2, 1, 1}));
+  int outer = 0;
+  for (Eigen::Index t = 0; t < both.triangles.rows(); ++t) {
+    const auto x = [&](int k) { return both.vertices(both.triangles(t, k), 0); };
+    if (x(0) == 1 && x(1) == 1 && x(2) == 1) continue;
+    ++outer;
+    ClosedMesh opened{both.vertices, feeler::Triangles(both.triangles.rows() - 1, 3)};
+    opened.triangles << both.triangles.topRows(t), both.triangles.bottomRows(both.triangles.rows() - 1 - t);
+    BOOST_TEST(Solid(opened).interior.is_empty(), "without triangle " << t);
+    if (t == 0 || t == 14) continue;  // what the others of its block are turned like
+    ClosedMesh mixed = both.inverted();
+    std::swap(mixed.triangles(t, 1), mixed.triangles(t, 2));
+    const Solid solid(mixed);
+    BOOST_TEST(solid.contains(Vector(0.5, 0.4, 0.3)), "with triangle " << t << " turned");
+    BOOST_TEST(solid.contains(Vector(1.5, 0.4, 0.3)), "with triangle " << t << " turned");
+  }
+  BOOST_TEST(outer == 20);
+}
+
 BOOST_AUTO_TEST_CASE(a_surface_of_one_side_and_points_and_lines_hold_nothing) {
   // A Klein bottle: the second half of a grid is joined to the first turned round.
   constexpr int u = 16, v = 9;

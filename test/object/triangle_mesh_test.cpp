@@ -221,6 +221,22 @@ BOOST_AUTO_TEST_CASE(triangle_is_degenerate_only_to_rounding_at_any_size) {
   }
 }
 
+BOOST_AUTO_TEST_CASE(points_on_a_line_in_space_make_no_triangle_and_a_low_one_beside_a_high_one_is_flat) {
+  constexpr unsigned seed = 12;
+  std::mt19937 bits(seed);
+  int with_area = 0, bent = 0;
+  for (int i = 0; i < 1000; ++i) {
+    const auto random = [&] { return Vector(unit(bits), unit(bits), unit(bits)); };
+    const Vector start = random() / 2, along = random().normalized(), across = along.cross(random()).normalized();
+    const Vector end = start + along, between = start + (0.5 + 0.1 * unit(bits)) * along;
+    with_area += Mesh(points({start, end, between}), rows({{0, 1, 2}})).normal(0).isZero(0) ? 0 : 1;
+    const Mesh sheet(points({start, end, between + 1e-6 * across, between - across}), rows({{0, 1, 2}, {1, 0, 3}}));
+    bent += sheet.topology().edge_convexity(0, 0) == Convexity::flat ? 0 : 1;
+  }
+  BOOST_TEST(with_area == 0);
+  BOOST_TEST(bent == 0);
+}
+
 BOOST_AUTO_TEST_CASE(soup_is_welded_also_over_the_sign_of_zero) {
   Points<double> p(36, 3);
   Triangles t(12, 3);

@@ -138,4 +138,26 @@ BOOST_AUTO_TEST_CASE(the_triangle_of_a_wall_under_a_point_is_found_or_the_point_
   BOOST_TEST(beside > 100);
 }
 
+BOOST_AUTO_TEST_CASE(the_two_sides_of_a_sheet_are_two_walls) {
+  feeler::Points<double> vertices(4, 3);
+  vertices << 0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0;
+  feeler::Triangles triangles(4, 3);
+  triangles << 0, 1, 2, 0, 2, 3, 0, 3, 1, 1, 3, 2;
+  const TriangleMesh<double> mesh(vertices, triangles);
+  BOOST_TEST(mesh.walls().count() == 2);
+  BOOST_TEST(mesh.walls().of_triangle(0) == mesh.walls().of_triangle(1));
+  BOOST_TEST(mesh.walls().of_triangle(2) == mesh.walls().of_triangle(3));
+}
+
+BOOST_AUTO_TEST_CASE(a_point_over_a_wall_that_is_as_rough_as_rounding_has_a_triangle_under_it) {
+  std::mt19937 bits(4);
+  feeler::Points<double> vertices;
+  feeler::Triangles triangles;
+  feeler::scenes::mesh_height_field({0, 1, 0, 1, 20, 20}, [&](double, double) { return 3e-9 * random_vector(bits).x(); }, vertices, triangles);
+  const TriangleMesh<double> mesh(vertices, triangles);
+  BOOST_TEST_REQUIRE(mesh.walls().count() == 1);
+  for (int i = 0; i < 1000; ++i)
+    BOOST_TEST(feeler::triangle_of_wall_under(mesh, 0, Eigen::Vector3d(fraction(bits), fraction(bits), 0.3), 1e-12) >= 0);
+}
+
 BOOST_AUTO_TEST_SUITE_END()
