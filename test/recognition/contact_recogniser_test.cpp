@@ -233,6 +233,56 @@ BOOST_AUTO_TEST_CASE(vertex_in_a_sharp_valley_touches_its_edge_alone) {
     BOOST_TEST(formation.size() == 1);
     BOOST_TEST(count(formation, 3) == 1);
     BOOST_TEST(formation[0].gap == 1e-6, boost::test_tools::tolerance(1e-6));
+    if (distance < 2e-6) continue;  // the edge is within the tolerance
+    const double middle = distance * std::cos(angle / 2) * std::cos(angle / 2);  // of the points nearest to it on the walls
+    BOOST_TEST((formation[0].point_world - middle * bisector).norm() < 1e-12);
+  }
+}
+BOOST_AUTO_TEST_CASE(vertex_in_a_slit_farther_than_ten_tolerances_from_its_edge_touches_both_walls) {
+  for (const double angle : {0.11, 0.09}) {
+    const Vector bisector(std::cos(angle / 2), 0, std::sin(angle / 2));
+    const auto formation = recognised(floor_and_wall(angle), Segment(Vector::Zero(), 0.2 * bisector + Vector(0, 0.02, 0)),
+                                      {1e-6 / std::sin(angle / 2) * bisector, Eigen::Quaterniond::Identity()});
+    BOOST_TEST_INFO_SCOPE(text(formation));
+    BOOST_TEST(count(formation, 3) == (angle > 0.1 ? 1 : 0));
+    BOOST_TEST(count(formation, 1) == (angle > 0.1 ? 0 : 2));
+  }
+}
+BOOST_AUTO_TEST_CASE(vertex_that_touches_three_walls_of_a_pit_of_four_does_not_touch_its_corner) {
+  // Walls at 60°, along whose rims the corners are; the vertex is 1.95 µm from two that face each other, 1 µm from the third, 2.9 µm from the last.
+  const double steepness = std::sqrt(3.0);
+  const Soup pit{{{0, 0, 0}, {1, 1, steepness}, {-1, 1, steepness}, {-1, -1, steepness}, {1, -1, steepness}},
+                 {{0, 1, 2}, {0, 2, 3}, {0, 3, 4}, {0, 4, 1}}};
+  const Segment tool(Vector::Zero(), Vector(0.01, 0.02, 0.4));
+  for (const double third : {1e-6, 1.95e-6}) {
+    const Pose pose{{0, (1.95e-6 - third) / std::sqrt(0.75), 3.9e-6}, Eigen::Quaterniond::Identity()};
+    const auto formation = recognised(pit, tool, pose);
+    BOOST_TEST_INFO_SCOPE(text(formation));
+    BOOST_TEST(count(formation, 4) == 0);
+    BOOST_TEST(formation.size() == 2);
+  }
+}
+BOOST_AUTO_TEST_CASE(box_in_a_valley_flat_within_the_tolerance_lies_on_both_its_faces) {
+  const auto formation = with_box(roof(2e-6), {0.2, 0.2, 0.1}, {{0, 0, 0.1 + 1e-6}, Eigen::Quaterniond::Identity()});
+  BOOST_TEST_INFO_SCOPE(text(formation));
+  BOOST_TEST(formation.size() == 2);
+  BOOST_TEST(count(formation, 7) == 2);
+}
+BOOST_AUTO_TEST_CASE(edge_that_ends_on_a_face_two_tolerances_from_its_rim_lies_on_it_and_a_shorter_one_does_not) {
+  for (const double inside : {3.5e-6, 5e-6}) {
+    const auto formation = recognised(floor_object(), Segment({1 - inside, 0.1, 1e-6}, {1.2, 0.2, 1e-6}), Pose{});
+    BOOST_TEST_INFO_SCOPE(text(formation));
+    BOOST_TEST(count(formation, 6) == (inside > 4e-6 ? 1 : 0));
+    BOOST_TEST(formation.size() == (inside > 4e-6 ? 1 : 2));
+  }
+}
+BOOST_AUTO_TEST_CASE(gap_of_edges_that_cross_is_negative_where_they_overlap) {
+  for (const double gap : {1e-6, 0.0, -1e-6}) {
+    const auto formation = recognised(roof(-1.0), Segment({-0.2, 0, 0}, {0.2, 0, 0}), {{0, 0, gap}, Eigen::Quaterniond::Identity()});
+    BOOST_TEST_INFO_SCOPE(text(formation));
+    BOOST_TEST_REQUIRE(formation.size() == 1);
+    BOOST_TEST(number_of(formation[0].type) == 2);
+    BOOST_TEST(std::abs(formation[0].gap - gap) < 1e-15);
   }
 }
 BOOST_AUTO_TEST_CASE(vertex_at_the_margin_from_three_walls_touches_their_corner) {
@@ -340,6 +390,17 @@ BOOST_AUTO_TEST_CASE(what_does_not_fit_is_counted) {
   BOOST_TEST(!formation.is_complete());
   BOOST_TEST(formation.dropped_witnesses == 400 - 128);
   BOOST_TEST(formation.size() > 0);
+}
+BOOST_AUTO_TEST_CASE(triangles_that_are_not_looked_at_are_counted_anew_at_each_pose) {
+  Soup floor = floor_object(0.1);
+  for (int i = 0; i < 6; ++i) floor = floor.divided();
+  const auto mesh = floor.mesh();
+  const SurfaceFeatures<double> surface(mesh);
+  ContactRecogniser<Box> recogniser(mesh, surface, Box({0.2, 0.2, 0.1}));
+  for (int round = 0; round < 2; ++round) {
+    BOOST_TEST(recogniser.recognise({{0, 0, 0.1}, Eigen::Quaterniond::Identity()}).dropped_triangles == 2 * 4096 - 4096);
+    BOOST_TEST(recogniser.recognise({{0, 0, 1}, Eigen::Quaterniond::Identity()}).is_complete());
+  }
 }
 #if FEELER_TEST_COUNTS_ALLOCATIONS
 BOOST_AUTO_TEST_CASE(recognising_allocates_nothing) {

@@ -156,6 +156,46 @@ BOOST_AUTO_TEST_CASE(triangles_without_area_join_no_faces) {
   BOOST_TEST(surface.face_of_triangle(0) == surface.face_of_triangle(1));
 }
 
+BOOST_AUTO_TEST_CASE(a_needle_along_a_bend_hides_neither_valley_nor_ridge_and_may_be_the_first_triangle_of_a_face) {
+  for (const double slope : {1.0, -1.0}) {
+    Soup object = roof(slope);
+    object.vertices.push_back({0, 0, 0});
+    object.triangles = {{1, 6, 4}, {0, 1, 4}, {0, 4, 3}, {1, 2, 5}, {1, 5, 6}, {6, 5, 4}};
+    const auto surface = features_of(object);
+    const Census front = census(surface, SurfaceSide::front);
+    BOOST_TEST((front.count("concave edges") > 0 ? front.at("concave edges") : 0) == (slope > 0 ? 1 : 0));
+    BOOST_TEST(front.at("convex edges") == (slope > 0 ? 6 : 7));
+    BOOST_TEST(surface.face(surface.face_of_triangle(0)).first_triangle == 0);
+  }
+}
+
+BOOST_AUTO_TEST_CASE(the_front_of_a_face_whose_triangles_disagree_is_that_of_its_first_one) {
+  const Soup object{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {2, 2, 0}}, {{0, 1, 2}, {1, 2, 3}}};  // the second, a larger one, faces down
+  const auto surface = features_of(object);
+  BOOST_TEST(surface.face_count() == 1);
+  BOOST_TEST((surface.face(0).normal - Eigen::Vector3d::UnitZ()).norm() < 1e-15);
+}
+
+BOOST_AUTO_TEST_CASE(a_triangle_that_is_a_point_is_a_corner_of_the_surface_wherever_it_is) {
+  Soup object = roof(1.0).divided();
+  const auto mesh = object.mesh();
+  const SurfaceFeatures<double> without(mesh);
+  int inside_edges = 0, inside_faces = 0;
+  for (int v = 0; v < mesh.vertex_count(); ++v) {
+    const FeatureKind kind = without.feature_of_vertex(v).kind;
+    if (kind == FeatureKind::vertex) continue;
+    ++(kind == FeatureKind::edge ? inside_edges : inside_faces);
+    Soup with = object;
+    const auto there =
+        std::size_t(std::find(object.vertices.begin(), object.vertices.end(), Eigen::Vector3d(mesh.vertex(v))) - object.vertices.begin());
+    with.triangles.push_back({int(there), int(there), int(there)});
+    const auto surface = features_of(with);
+    BOOST_TEST(surface.vertex_count() == without.vertex_count() + 1);
+  }
+  BOOST_TEST(inside_edges > 0);
+  BOOST_TEST(inside_faces > 0);
+}
+
 BOOST_AUTO_TEST_CASE(edges_of_three_triangles_count_as_convex) {
   Soup object = roof(1.0);
   object.vertices.push_back({0, 0, 3});
