@@ -109,4 +109,40 @@ BOOST_AUTO_TEST_CASE(what_touches_but_never_holds_leaves_in_the_end) {
   BOOST_TEST(set.find(0, 1) == 0);
 }
 
+BOOST_AUTO_TEST_CASE(a_separation_is_known_for_less_with_every_motion_until_it_is_measured_again) {
+  Set set;
+  auto& pair = set.add(0, 1, Corners::Zero());
+  BOOST_TEST(!pair.is_beyond(0));
+  for (int round = 0; round < 2; ++round) {
+    pair.set_plane(Eigen::Vector3d::UnitZ(), 1e-4);
+    BOOST_TEST(pair.is_beyond(9e-5));
+    for (int motion = 1; motion <= 3; ++motion) {
+      set.approach(2e-5);
+      BOOST_TEST(!pair.is_beyond(1.1e-4 - 2e-5 * motion));
+      BOOST_TEST(pair.is_beyond(0.9e-4 - 2e-5 * motion));
+    }
+  }
+}
+
+BOOST_AUTO_TEST_CASE(what_would_be_noticed_again_stays_and_a_filler_leaves_soon) {
+  Set set;
+  for (int triangle = 0; triangle < 3; ++triangle) set.add(0, triangle, Corners::Zero()).state = feeler::PairState::has_rows;
+  set[0].slack = 5e-5;
+  set[1].slack = set[2].slack = 1e-6;
+  set[1].is_filler = true;
+  for (int tick = 0; tick < Set::longest_unused_filler; ++tick) set.age(4e-6, 1e-4, false);
+  BOOST_TEST(set.size() == 3);
+  for (int tick = 0; tick < 2 * Set::longest_unused; ++tick) set.age(4e-6, 1e-4, false);
+  BOOST_TEST(set.size() == 3);
+  set[set.find(0, 2)].note_use();
+  set.age(4e-6, 0, false);
+  BOOST_TEST(set.size() == 1);
+  BOOST_TEST(set.find(0, 2) == 0);
+  set.add(0, 3, Corners::Zero()).is_filler = true;
+  for (int tick = 0; tick < Set::longest_unused_filler; ++tick) set.age(4e-6, 0, false);
+  BOOST_TEST(set.size() == 2);
+  set.age(4e-6, 0, false);
+  BOOST_TEST(set.find(0, 3) == -1);
+}
+
 BOOST_AUTO_TEST_SUITE_END()

@@ -82,6 +82,21 @@ BOOST_AUTO_TEST_CASE(a_wall_that_costs_more_than_the_price_gives_way_by_what_the
   BOOST_TEST(fit.rows.relaxation() == 3e-4, boost::test_tools::tolerance(1e-9));
 }
 
+BOOST_AUTO_TEST_CASE(what_a_wall_that_gives_way_lacks_before_one_that_does_not_is_known_at_once) {
+  // A floor 0.2 µm below that has to be kept whole, whatever less is asked of it than its hard bound; a ceiling that gives way by 0.3 µm.
+  for (const bool is_floor_first : {true, false}) {
+    Fit fit;
+    fit.problem.gradient[2] = 1e-9;
+    const auto add_floor = [&fit] { fit.add(along(2, 1), -0.2e-6, 1e-6); };
+    if (is_floor_first) add_floor();
+    fit.add(along(2, -1), 0.5e-6, -0.5e-6);
+    if (!is_floor_first) add_floor();
+    BOOST_TEST(fit.solve(1.0) == 2);
+    BOOST_TEST(std::abs(fit.solution.step[2] + 0.2e-6) < 1e-12);
+    BOOST_TEST(fit.rows.relaxation() == 0.3e-6, boost::test_tools::tolerance(1e-5));
+  }
+}
+
 BOOST_AUTO_TEST_CASE(a_row_that_is_there_twice_changes_nothing) {
   Fit once = slot(1e-6, 1e-6, 1e-3), twice = slot(1e-6, 1e-6, 1e-3);
   for (int i = 0; i < 5; ++i) twice.add(along(2, 1), 0.5e-6, -0.5e-6);

@@ -4,6 +4,7 @@
 #include <boost/test/unit_test.hpp>
 
 #include <cmath>
+#include <optional>
 
 #include "feeler/proximity/clearance.hpp"
 #include "feeler/qp/dual_active_set.hpp"
@@ -40,10 +41,10 @@ Vector6<double> step_of(Problem& problem, double short_by, const Eigen::Vector3d
 BOOST_AUTO_TEST_CASE(a_curvature_that_couples_a_slide_with_the_way_across_it_costs_no_exactness) {
   // s = gap + z + c x z. With z given by the row, the Lagrangian's optimum along it is x = hand + λ c z, whatever the sign of the whole Hessian.
   Problem problem;
-  const double short_by = 1e-7;
   const Eigen::Vector3d hand(2e-6, 0, -1e-3);
-  const double multiplier = short_by - hand.z();
-  for (const double coupling : {0.0, 0.9, 4.0, 17.0, 28.0}) {  // λ c
+  for (const double coupling : {0.0, 0.9, 4.0, 17.0, 28.0, -0.0, -0.9, -4.0, -17.0, -28.0}) {  // λ c
+    const double short_by = std::signbit(coupling) ? -1e-4 : 1e-7;  // or above the wall by as much
+    const double multiplier = short_by - hand.z();
     Matrix6<double> bend = Matrix6<double>::Zero();
     bend(0, 2) = bend(2, 0) = coupling / multiplier;
     const Vector6<double> step = step_of(problem, short_by, hand, bend);
@@ -110,6 +111,52 @@ BOOST_AUTO_TEST_CASE(an_overlap_of_rounding_is_not_won_back_where_two_walls_part
       BOOST_TEST(std::abs(step[0] - hand.x()) < 25 * margin);  // what the margin is worth
     }
   }
+}
+
+BOOST_AUTO_TEST_CASE(a_row_that_is_kept_says_that_the_step_rests_on_it_and_is_not_carried) {
+  using Corner = StepProblem<DualActiveSet<double>, 8>;
+  ContactRow<double> floor, wall;
+  wall.normal = Eigen::Vector3d::UnitX();
+  floor.gap = wall.gap = 1e-6;
+  Corner problem;
+  const auto rests_on_kept = [&](double x, double z) {
+    problem.solve_gauss_newton(Metric<double>(), {{x, 0, z}, Eigen::Vector3d::Zero()}, 0.0);
+    return problem.rests_on_kept();
+  };
+  BOOST_TEST_REQUIRE(problem.add(floor, {0.0}));
+  BOOST_TEST_REQUIRE(problem.keep(wall, 0.0));
+  BOOST_TEST(problem.row_count() == 2);
+  BOOST_TEST(rests_on_kept(1e-3, 1e-3));
+  BOOST_TEST(!rests_on_kept(-1e-3, 1e-3));
+  const Displacement<double> down = Twist<double>{{0, 0, -1e-7}, Eigen::Vector3d::Zero()};
+  BOOST_TEST(problem.carry(down, [](const ContactRow<double>&) { return std::optional<Corner::Standing>{Corner::Standing{0.0}}; }));
+  BOOST_TEST(problem.row_count() == 1);
+  BOOST_TEST(problem.row(0).gap == 9e-7, boost::test_tools::tolerance(1e-9));
+  BOOST_TEST(!rests_on_kept(1e-3, 1e-3));
+}
+
+BOOST_AUTO_TEST_CASE(where_there_is_no_room_for_the_margin_both_walls_share_what_there_is_and_overlaps_stay) {
+  // The certified pose was far from both; the hand is far below.
+  constexpr double margin = 1e-6;
+  const auto step_between = [](Problem& problem, double below, double above, const Eigen::Vector3d& hand) {
+    BentRow floor, ceiling;
+    ceiling.normal = -floor.normal;
+    floor.gap = below;
+    ceiling.gap = above;
+    problem.clear();
+    problem.add(floor, {1.5e-6});
+    problem.add(ceiling, {1.5e-6});
+    return Vector6<double>(problem.solve_gauss_newton(Metric<double>(), {-hand, Eigen::Vector3d::Zero()}, margin));
+  };
+  Problem problem;
+  const Vector6<double> shared = step_between(problem, 5e-7, 1e-7, {0, 0, -1e-3});
+  BOOST_TEST(std::abs(shared[2] + 2e-7) < 1e-11);
+  BOOST_TEST(problem.is_optimal());
+  // Neither has a fifth of the margin: the tool slides between them, no nearer to either.
+  const Vector6<double> slide = step_between(problem, -1e-7, -1e-7, {1e-4, 0, -1e-3});
+  BOOST_TEST(problem.is_optimal());
+  BOOST_TEST(std::abs(slide[0] - 1e-4) < 1e-12);
+  BOOST_TEST(std::abs(slide[2]) < 1e-12);
 }
 
 BOOST_AUTO_TEST_CASE(with_the_forces_of_the_last_step_steps_converge_quadratically_without_a_projection) {

@@ -35,6 +35,12 @@ BOOST_AUTO_TEST_CASE(a_step_is_solved_for_where_there_is_work_for_it) {
   BOOST_TEST(!budget.allows_solve(97));
   BOOST_TEST(!budget.is_spent(99));
   BOOST_TEST(budget.is_spent(100));
+  budget.note_step(20);  // the next may take twice as much
+  BOOST_TEST(budget.allows_step(59));
+  BOOST_TEST(!budget.allows_step(60));
+  budget.note_step(40);  // or half of a budget
+  BOOST_TEST(budget.allows_step(49));
+  BOOST_TEST(!budget.allows_step(50));
   budget.begin_tick(4);  // a tick that begins with one has work for it
   BOOST_TEST(budget.allows_step(0));
 }
