@@ -223,4 +223,24 @@ BOOST_AUTO_TEST_CASE(an_answer_does_not_change_with_the_unit_if_that_is_a_power_
   }
 }
 
+BOOST_AUTO_TEST_CASE(a_capsule_over_the_inside_of_a_triangle_is_as_far_from_it_as_from_its_plane_to_the_last_digits) {
+  constexpr unsigned seed = 31;
+  BOOST_TEST_MESSAGE("seed " << seed);
+  std::mt19937 bits(seed);
+  const double radius = 0.01;
+  double worst = 0;
+  for (int i = 0; i < 5000; ++i) {
+    const feeler::Capsule<double> tool({0.05 * random_vector(bits), 0.05 * random_vector(bits)}, radius);
+    const double size = magnitude(bits, -0.5, 1), gap = magnitude(bits, -7, -3);
+    const Vector normal = random_direction(bits), x = size * normal.unitOrthogonal(), y = normal.cross(x);
+    const double lowest = std::min(normal.dot(tool.vertex(0)), normal.dot(tool.vertex(1)));
+    Eigen::Matrix3d corners;
+    corners << -x - y, x - y, 1.5 * y;
+    corners.colwise() += Vector((lowest - radius - gap) * normal);
+    const double exact = lowest - radius - normal.dot(corners.col(0));
+    worst = std::max(worst, std::abs(feeler::gjk(tool, corners, {}, 1e-8).distance - exact));
+  }
+  BOOST_TEST(worst < 2e-14);
+}
+
 BOOST_AUTO_TEST_SUITE_END()

@@ -47,6 +47,24 @@ BOOST_AUTO_TEST_CASE(a_part_lies_in_the_box_and_in_the_triangle_and_knows_where)
   BOOST_TEST(parts > 1000);
 }
 
+BOOST_AUTO_TEST_CASE(a_corner_cut_from_an_edge_of_kilometres_lies_on_it_to_rounding_of_the_tool) {
+  const Box<double> tool(Vector::Constant(0.01));
+  Eigen::Matrix3d triangle;
+  triangle << 0.001, 1e6, -4e5, 0.002, 3e5, 1e6, -0.003, 2e5, 1e5;
+  int cut = 0;
+  const auto part = feeler::near_part(tool, triangle, 0.003);
+  for (const auto& corner : part) {
+    for (int k = 0; k < 3; ++k) {
+      if (corner.corners != (1U << unsigned(k) | 1U << unsigned((k + 1) % 3))) continue;
+      ++cut;
+      using Wide = Eigen::Matrix<long double, 3, 1>;
+      const Wide start = triangle.col(k).cast<long double>(), along = (triangle.col((k + 1) % 3).cast<long double>() - start).normalized();
+      BOOST_TEST((corner.point.cast<long double>() - start).cross(along).norm() < 1e-17L);
+    }
+  }
+  BOOST_TEST(cut == 2);
+}
+
 BOOST_AUTO_TEST_CASE(a_box_over_a_triangle_of_kilometres_is_as_far_away_as_it_is) {
   const Vector half(0.01, 0.01, 0.01);
   const Box<double> tool(half);

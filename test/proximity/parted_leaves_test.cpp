@@ -148,6 +148,37 @@ BOOST_AUTO_TEST_CASE(a_row_of_leaves_is_parted_where_each_of_its_triangles_is) {
   BOOST_TEST(!leaves.is_parted(3, 0));
 }
 
+BOOST_AUTO_TEST_CASE(a_turn_takes_as_much_room_as_the_radius_by_its_angle_before_a_note_and_after) {
+  const double turn = 0.05;
+  auto rest = resting_at(Vector::Zero());
+  const double way = turn * rest.radius;
+  PartedLeaves<double> leaves(8, 0);
+  leaves.begin(rest.moving(), 1e-6);
+  leaves.note(0, 1, 0, up, way + 2e-6);
+  rest.motion.angular = Vector(turn, 0, 0);
+  leaves.begin(rest.moving(), 1e-6);
+  BOOST_TEST(leaves.is_parted(0, 0));
+  rest.motion.angular *= 1.01;
+  leaves.begin(rest.moving(), 1e-6);
+  BOOST_TEST(!leaves.is_parted(0, 0));
+
+  rest.motion = {};
+  rest.pose.rotation = Eigen::AngleAxisd(turn, Vector::UnitX());
+  leaves.begin(rest.moving(), 1e-6);
+  BOOST_TEST(leaves.is_parted(0, 0));  // what was noted before the turn has hardly any room left
+  leaves.note(1, 1, 0, up, way / 2);  // what is noted after it has all of its own
+  leaves.begin(rest.moving(), 1e-6);
+  BOOST_TEST(leaves.is_parted(0, 0));
+  BOOST_TEST(leaves.is_parted(1, 0));
+  rest.pose.rotation = Eigen::AngleAxisd(1.4 * turn, Vector::UnitX());
+  leaves.begin(rest.moving(), 1e-6);
+  BOOST_TEST(!leaves.is_parted(0, 0));
+  BOOST_TEST(leaves.is_parted(1, 0));
+  rest.pose.rotation = Eigen::AngleAxisd(1.6 * turn, Vector::UnitX());
+  leaves.begin(rest.moving(), 1e-6);
+  BOOST_TEST(!leaves.is_parted(1, 0));
+}
+
 BOOST_AUTO_TEST_CASE(a_tool_that_has_gone_farther_than_its_size_knows_nothing) {
   auto rest = resting_at(Vector::Zero());
   PartedLeaves<double> leaves(8, 0);

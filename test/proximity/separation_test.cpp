@@ -3,6 +3,7 @@
 #include <boost/test/unit_test.hpp>
 
 #include <random>
+#include <type_traits>
 
 #include "support/random_tools.hpp"
 
@@ -38,6 +39,8 @@ void check_depth(unsigned seed, int count, const MakeTool& make_tool) {
     const WideReal shown = WideTool(tool).separation_along(found.normal.template cast<WideReal>(), wide(corners));
     BOOST_TEST(std::abs(shown - WideReal(found.distance)) < 1e-15L);
     worst = std::max(worst, std::abs(depth + WideReal(found.distance)));
+    if constexpr (!feeler::SweptTool<std::remove_cvref_t<decltype(tool)>>)
+      BOOST_TEST((found.tool_point - found.triangle_point - found.distance * found.normal).norm() < 1e-15);
     // Moved by its depth along the normal the tool is free.
     const Eigen::Matrix3d moved = corners.colwise() + found.normal * found.distance;
     BOOST_TEST(depth_of(tool, moved) < 1e-14L);
