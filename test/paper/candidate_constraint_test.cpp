@@ -2,6 +2,7 @@
 
 #include <boost/test/unit_test.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <random>
@@ -66,6 +67,32 @@ BOOST_AUTO_TEST_CASE(gaps_and_rooms_are_those_of_a_box_over_a_roof) {
     ++edges;
   }
   BOOST_TEST(edges == 2);
+}
+
+BOOST_AUTO_TEST_CASE(room_of_edges_ends_at_either_end_of_each) {
+  const auto mesh = roof();
+  const Vector half(0.02, 0.03, 0.01);
+  const feeler::Box<double> tool(half);
+  for (const double beside : {0.0, 0.015, -0.015}) {
+    for (const double along : {0.0, 0.06, -0.06}) {
+      const Pose<double> pose{{beside, along, half.z()}, Eigen::Quaterniond::Identity()};
+      for (int e = 0; e < tool.edge_count(); ++e) {
+        const Vector start = tool.vertex(tool.edge(e).start), end = tool.vertex(tool.edge(e).end);
+        if (start.z() > 0 || end.z() > 0 || start.y() != end.y()) continue;
+        const auto row = row_of(CandidateConstraint{FeaturePair::edge_edge, e, 3, 2, false}, tool, mesh, pose, pose.translation);
+        BOOST_TEST(std::abs(row.room - std::min(half.x() - std::abs(beside), 0.1 - std::abs(along + start.y()))) < 1e-15);
+      }
+    }
+  }
+}
+
+BOOST_AUTO_TEST_CASE(out_of_a_ridge_is_between_its_slopes_and_out_of_a_rim_is_over_it_on_the_side_of_the_tool) {
+  const auto mesh = roof();
+  for (const double side : {1.0, -1.0}) {
+    const Vector ridge = feeler::detail::out_of_ridge<double>(mesh, 3, 2, side), rim = feeler::detail::out_of_ridge<double>(mesh, 0, 0, side);
+    BOOST_TEST((ridge.normalized() - side * Vector::UnitZ()).norm() < 1e-15);
+    BOOST_TEST((rim - side * mesh.normal(0) + Vector::UnitY()).norm() < 1e-15);
+  }
 }
 
 BOOST_AUTO_TEST_CASE(rows_are_the_derivatives_of_their_gaps) {

@@ -99,4 +99,39 @@ BOOST_AUTO_TEST_CASE(a_room_is_one_piece_of_all_walls_in_reach) {
   }
 }
 
+BOOST_AUTO_TEST_CASE(past_the_ridge_where_a_wall_ends_it_holds_nothing) {
+  // Beside a block that stands on a floor: its wall x = 0 ends at y = 0.
+  feeler::Points<double> vertices(9, 3);
+  vertices << 0, 0, 0, 0, -1, 0, 1, -1, 0, 1, 1, 0, -1, 1, 0, -1, 0, 0, 0, 0, 1, 0, -1, 1, -1, 0, 1;
+  feeler::Triangles triangles(8, 3);
+  triangles << 0, 1, 2, 0, 2, 3, 0, 3, 4, 0, 4, 5, 0, 6, 1, 1, 6, 7, 0, 5, 6, 5, 8, 6;
+  const feeler::TriangleMesh<double> mesh(vertices, triangles);
+  const feeler::Segment<double> tool(Vector(0.02, -0.3, 0.1), Vector(0.02, 0.3, 0.1));
+  feeler::VertexSet near(tool.vertex_count());
+  LocalSearch<feeler::Segment<double>, double> search(tool, mesh, {}, 1e-3, near);
+  RegionCandidates region;
+  search.find(feeler::vertex_on_triangle<double>(0, 0, Vector::UnitZ()), region);
+  BOOST_TEST_REQUIRE(region.candidates.size() >= 1);
+  BOOST_TEST(planes(mesh, region.candidates[0]) == 2u);  // the floor and that wall
+  std::set<int> on_floor, on_wall;
+  for (const auto& constraint : region.candidates[0].constraints)
+    (mesh.normal(constraint.triangle).z() > 0.5 ? on_floor : on_wall).insert(constraint.tool_feature);
+  BOOST_TEST((on_floor == std::set<int>{0, 1}));
+  BOOST_TEST((on_wall == std::set<int>{0}));
+}
+
+BOOST_AUTO_TEST_CASE(a_tip_is_one_candidate_for_each_face_over_it_however_many_triangles_meet_there) {
+  feeler::Points<double> vertices(5, 3);
+  vertices << 0, 0, 0, 0.1, 0, -0.1, 0, 0.1, -0.1, -0.1, 0, -0.1, 0, -0.1, -0.1;
+  feeler::Triangles triangles(4, 3);
+  triangles << 0, 1, 2, 0, 2, 3, 0, 3, 4, 0, 4, 1;
+  const feeler::TriangleMesh<double> mesh(vertices, triangles);
+  const feeler::Box<double> tool(Vector::Constant(0.01));
+  feeler::VertexSet near(tool.vertex_count());
+  LocalSearch<feeler::Box<double>, double> search(tool, mesh, {{0, 0, 0.01 + 1e-6}, Eigen::Quaterniond::Identity()}, 1e-3, near);
+  RegionCandidates region;
+  search.find(feeler::vertex_on_triangle<double>(0, 0, mesh.normal(0)), region);
+  BOOST_TEST(count(region, FeaturePair::face_vertex) == 1);
+}
+
 BOOST_AUTO_TEST_SUITE_END()

@@ -76,4 +76,17 @@ BOOST_AUTO_TEST_CASE(euler_angles_go_the_short_way_past_half_a_turn) {
   BOOST_TEST(std::abs(coordinates.of(turned(-pi + 0.01))[5] - 0.02) < 1e-12);
 }
 
+BOOST_AUTO_TEST_CASE(euler_angles_go_on_past_a_quarter_turn_of_the_second) {
+  // There the same rotation has other angles, all three far away.
+  for (const double tilt : {1.5, -1.5}) {
+    const Pose<double> base{{},
+                            Eigen::Quaterniond(Eigen::AngleAxisd(0.3, Eigen::Vector3d::UnitZ()) * Eigen::AngleAxisd(tilt, Eigen::Vector3d::UnitY()) *
+                                               Eigen::AngleAxisd(-0.2, Eigen::Vector3d::UnitX()))};
+    const StepCoordinates<double, Increments::euler_angles> coordinates(base);
+    Vector6<double> step;
+    step << 0, 0, 0, 0.1, tilt > 0 ? 0.2 : -0.2, -0.05;
+    BOOST_TEST((coordinates.of(coordinates.pose_at(step)) - step).norm() < 1e-12);
+  }
+}
+
 BOOST_AUTO_TEST_SUITE_END()
