@@ -178,6 +178,73 @@ BOOST_AUTO_TEST_CASE(a_box_on_a_spike_has_the_tip_in_its_face) {
       BOOST_TEST((row.normal - Vector::UnitZ()).norm() < 1e-15);  // into the box
       BOOST_TEST(std::abs(row.gap - gap) < 1e-15);
       BOOST_TEST((row.arm + pose.translation).norm() < 1e-15);  // the tip is the origin
+      const Vector tip = pose.rotation.conjugate() * -pose.translation;
+      BOOST_TEST(row.room == 0.1 - std::max(std::abs(tip.x()), std::abs(tip.y())), boost::test_tools::tolerance(1e-12));
+    }
+  }
+}
+
+BOOST_AUTO_TEST_CASE(a_corner_amid_a_wall_is_none_for_a_face_that_lies_on_it) {
+  const Mesh mesh = mesh_of({{0, 0, 0}, {-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}}, {{0, 1, 2}, {0, 2, 3}, {0, 3, 4}, {0, 4, 1}});
+  const Box box(Vector(0.03, 0.02, 0.01));
+  for (int triangle = 0; triangle < 4; ++triangle) {
+    const Found found = find(box, mesh, triangle, at(Vector(0.01, 0.005, 0.01 + 1e-6)));
+    BOOST_TEST(found.has_rows);
+    BOOST_TEST(found.count(FeaturePair::vertex_face) == found.rows.size());
+  }
+}
+
+BOOST_AUTO_TEST_CASE(beside_a_valley_the_plane_across_is_assumed_within_four_bands_where_that_is_asked_for) {
+  const Mesh mesh = mesh_of({{0, -1, 0}, {0, 1, 0}, {1, 0, 0.5}, {-1, 0, 0.5}}, {{0, 2, 1}, {0, 1, 3}});  // z = |x| / 2
+  const double half = 1e-4;
+  const Box box(Vector::Constant(half));
+  const Vector left = Vector(0.5, 0, 1).normalized();
+  for (const double x : {3e-4, 3e-3}) {  // of its middle; its lowest edge on the right touches the slope there
+    const auto pose = at(Vector(x, 0, (x + half) / 2 + half + in_touch));
+    BOOST_TEST(!find(box, mesh, 1, pose).has_rows);
+    const Found found = find(box, mesh, 1, pose, false, Vector::Zero(), true);
+    BOOST_TEST_CONTEXT("x " << x << " distance " << found.distance) {
+      BOOST_TEST((found.distance < 4 * band) == (x < 1e-3));
+      BOOST_TEST(found.has_rows == (x < 1e-3));
+      if (!found.has_rows) continue;
+      BOOST_TEST_REQUIRE(found.rows.size() == 1);
+      BOOST_TEST(found.rows[0].is_assumed);
+      BOOST_TEST((found.rows[0].normal - left).norm() < 1e-12);
+      BOOST_TEST(found.rows[0].gap == left.dot(pose.translation - half * Vector(1, 0, 1)), boost::test_tools::tolerance(1e-9));
+    }
+  }
+}
+
+BOOST_AUTO_TEST_CASE(a_vertex_beyond_a_shallow_valley_is_held_by_the_face_before_it_for_a_band_only) {
+  const Mesh mesh = mesh_of({{0, -1, 0}, {0, 1, 0}, {1, 0, 0.1}, {-1, 0, 0}}, {{0, 2, 1}, {0, 1, 3}});
+  for (const double beyond : {0.8 * band, 1.6 * band}) {
+    const feeler::Segment<double> tool(Vector(-2 * band, 0, in_touch), Vector(beyond, 0, 0.1 * beyond + in_touch));
+    const Found found = find(tool, mesh, 1, {});
+    BOOST_TEST_CONTEXT("beyond by " << beyond) {
+      BOOST_TEST(found.has_rows);
+      int held = 0;
+      for (const auto& row : found.rows) held += row.kind == FeaturePair::vertex_face && (row.arm - tool.vertex(1)).norm() < 1e-15;
+      BOOST_TEST(held == (beyond < band ? 1 : 0));
+    }
+  }
+}
+
+BOOST_AUTO_TEST_CASE(of_shapes_that_overlap_no_row_holds_a_vertex_that_is_beside_the_triangle) {
+  const Mesh mesh = floor();
+  const Vector half(0.03, 0.02, 0.01);
+  const Box box(half);
+  // Astride the line between the two triangles, 20 µm deep beyond it and 10 µm on this side.
+  const double tilt = 5e-6 / 0.03;
+  const auto pose = at(Vector(0.5, 0.5, 0.01 - 1.5e-5), turn(-std::acos(-1.0) / 4, Vector::UnitZ()) * turn(tilt, Vector::UnitY()));
+  for (const bool keep_ghost : {false, true}) {
+    for (int triangle = 0; triangle < 2; ++triangle) {
+      const Found found = find(box, mesh, triangle, pose, keep_ghost);
+      BOOST_TEST(found.has_rows);
+      BOOST_TEST(found.rows.size() == 2);
+      for (const auto& row : found.rows) {
+        const Vector point = pose.translation + row.arm;
+        BOOST_TEST((point.x() > point.y()) == (triangle == 0));
+      }
     }
   }
 }
@@ -256,6 +323,19 @@ BOOST_AUTO_TEST_CASE(edges_that_cross_give_one_row_along_their_common_normal) {
         BOOST_TEST(std::abs(point.x()) < 1e-12);
         BOOST_TEST(std::abs(point.z() - gap) < 1e-15);
       }
+    }
+  }
+}
+
+BOOST_AUTO_TEST_CASE(room_of_edges_that_cross_is_what_is_left_to_the_nearest_end) {
+  const Mesh mesh = roof();
+  const double h = 0.02;
+  const Box box(Vector(0.05, h, h));
+  for (const double off : {0.01, -0.01}) {
+    for (const double along : {0.0, 0.97, -0.97}) {  // the ridge ends at ±1
+      const Found found = find(box, mesh, 0, at(Vector(off, along, std::sqrt(2.0) * h + in_touch), turn(std::acos(-1.0) / 4, Vector::UnitX())));
+      BOOST_TEST_REQUIRE(found.rows.size() == 1);
+      BOOST_TEST(found.rows[0].room == std::min(0.05 - std::abs(off), 1 - std::abs(along)), boost::test_tools::tolerance(1e-9));
     }
   }
 }

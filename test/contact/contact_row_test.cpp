@@ -157,6 +157,21 @@ BOOST_AUTO_TEST_CASE(rows_repeat_each_other_where_gap_and_gradient_are_the_same_
   }
 }
 
+BOOST_AUTO_TEST_CASE(a_contact_outlasts_a_slide_of_a_quarter_of_its_room_whether_the_tool_is_moved_or_turned) {
+  ContactRow<double> row;
+  row.arm = {0.1, 0, 0};
+  row.room = 1e-3;
+  const auto outlasts = [&row](int axis, double length) { return row.outlasts(length * feeler::Vector6<double>::Unit(axis)); };
+  for (const int axis : {0, 1}) {
+    BOOST_TEST(outlasts(axis, 2.49e-4));
+    BOOST_TEST(!outlasts(axis, 2.51e-4));
+  }
+  BOOST_TEST(outlasts(2, 1));  // along its normal
+  BOOST_TEST(outlasts(3, 1));  // about its arm
+  BOOST_TEST(outlasts(5, 2.49e-3));
+  BOOST_TEST(!outlasts(5, 2.51e-3));
+}
+
 BOOST_AUTO_TEST_CASE(curvature_is_symmetric) {
   std::mt19937 bits(4);
   for (int i = 0; i < 100; ++i)

@@ -68,4 +68,16 @@ BOOST_AUTO_TEST_CASE(the_lowest_is_among_them_wherever_it_is) {
   }
 }
 
+BOOST_AUTO_TEST_CASE(what_a_tilt_by_the_rise_across_the_rows_does_not_make_the_lowest_is_left_out) {
+  // Of a ring and its middle: the tilt lowers one side of the ring by half of that below the middle.
+  const double rise = 1e-6;
+  for (const double lower : {0.4, 0.6}) {
+    auto rows = ring(200, 0.01);
+    rows.push_back(rows[0]);
+    rows.back().arm.setZero();
+    rows.back().gap -= lower * rise;
+    BOOST_TEST(outer_of(rows, rise).size() == (lower < 0.5 ? most_outer_rows + 1 : 1));
+  }
+}
+
 BOOST_AUTO_TEST_SUITE_END()

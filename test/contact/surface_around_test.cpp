@@ -70,6 +70,47 @@ BOOST_AUTO_TEST_CASE(a_bend_ends_a_flat_part_and_its_sides_rise_in_a_valley_alon
   }
 }
 
+BOOST_AUTO_TEST_CASE(a_flat_surface_rises_nowhere_however_it_is_turned_and_one_beside_a_valley_only_across_it) {
+  std::mt19937 bits(7);
+  for (int turn = 0; turn < 20; ++turn) {
+    const Eigen::Matrix3d axes = random_rotation(bits).toRotationMatrix();
+    const Mesh flat = sheet(0);
+    feeler::Points<double> vertices(25, 3);
+    feeler::Triangles triangles(32, 3);
+    for (int i = 0; i < 25; ++i) vertices.row(i) = (axes * flat.vertex(i)).transpose();
+    for (int t = 0; t < 32; ++t) triangles.row(t) << flat.triangle(t)[0], flat.triangle(t)[1], flat.triangle(t)[2];
+    const Mesh mesh(vertices, triangles);
+    Surface surface(mesh, axes, 1e-9);
+    for (int triangle = 0; triangle < 32; ++triangle) {
+      surface.stand_on(triangle);
+      for (int k = 0; k < 3; ++k) {
+        BOOST_TEST(!surface.rises_across(k, Vector::UnitZ()));
+        for (const Vector& way : {Vector(Vector::UnitX()), Vector(-Vector::UnitX())}) BOOST_TEST(!surface.rises_beyond(k, way, Vector::UnitZ()));
+      }
+    }
+  }
+  const Eigen::Matrix3d axes = Eigen::Matrix3d::Identity();
+  for (const double slope : {0.5, -0.5}) {
+    const Mesh mesh = sheet(slope);
+    Surface surface(mesh, axes, 1e-9);
+    surface.stand_on(triangle_at(-1, 0));
+    const Vector upward = Vector(slope, 0, 1).normalized();
+    BOOST_TEST(surface.rises_beyond(1, Vector::UnitX(), upward) == (slope > 0));  // from its corner on the bend
+    BOOST_TEST(!surface.rises_beyond(1, Vector(-Vector::UnitX()), upward));
+  }
+}
+
+BOOST_AUTO_TEST_CASE(for_a_point_beside_a_wall_the_triangle_is_that_at_the_rim_on_the_way) {
+  const Mesh mesh = sheet(0);
+  const Eigen::Matrix3d axes = Eigen::Matrix3d::Identity();
+  Surface surface(mesh, axes, 1e-9);
+  surface.stand_on(triangle_at(-2, -2));
+  const Vector corner = mesh.corners(triangle_at(-2, -2)).col(0);
+  BOOST_TEST(surface.triangle_under({5, -1.9, 0.1}, corner) == triangle_at(1, -2));
+  BOOST_TEST(surface.triangle_under({0.9, -1.9, 0.1}, corner) == triangle_at(0, -2));
+  BOOST_TEST(surface.triangle_under({-1.1, -1.9, 0.1}, corner) == -1);  // its own
+}
+
 BOOST_AUTO_TEST_CASE(the_rim_of_a_surface_has_no_neighbour_and_nothing_rises_there) {
   const Mesh mesh = sheet(0);
   const Eigen::Matrix3d axes = Eigen::Matrix3d::Identity();

@@ -120,6 +120,37 @@ BOOST_AUTO_TEST_CASE(a_carried_row_is_the_row_where_a_motion_ends) {
     }
 }
 
+BOOST_AUTO_TEST_CASE(the_closest_points_of_parallel_lines_bend_as_a_point_and_a_line_and_of_a_face_turn_with_the_tool) {
+  const Eigen::Matrix3d axes = Eigen::Matrix3d::Identity();
+  const Vector reference(0.001, 0.002, 0.003);
+  feeler::ClosestPoints<double> closest;
+  closest.distance = 1e-5;
+  closest.tool_point = {0, 0.005, 0.01 + 1e-5};
+  closest.triangle_point = {0, 0.005, 0};
+  closest.features.size = 2;
+  closest.features.tool_vertices = {0, 1, 0};
+  closest.features.corners = {0, 1, 0};
+  Eigen::Matrix3d triangle;
+  triangle << 0, 0, 1, -1, 1, 0, 0, 0, -1;
+  const feeler::Capsule<double> capsule({{0, -0.02, 0.01 + 1e-5}, {0, 0.03, 0.01 + 1e-5}}, 0.01);
+  const auto row = feeler::PatchRowMaker<feeler::Capsule<double>>(capsule, axes, reference, 1e-9).row_of_closest(closest, triangle);
+  BOOST_TEST(row.tool_edge.isZero(0));
+  BOOST_TEST((row.object_edge - Vector::UnitY()).norm() < 1e-15);
+  BOOST_TEST(row.core_distance == 0.01 + 1e-5, boost::test_tools::tolerance(1e-12));
+  BOOST_TEST(curvature_of(row).allFinite());
+
+  const feeler::RoundedBox<double> box(feeler::Box<double>(Vector(0.1, 0.1, 0.1)), 0.01);
+  closest.tool_point = {0, 0.005, -0.1};
+  closest.triangle_point = {0, 0.005, -0.11 - 1e-5};
+  closest.features.size = 3;
+  closest.features.tool_vertices = {0, 1, 2};
+  closest.features.corners = {0, 0, 0};
+  const auto on_face = feeler::PatchRowMaker<feeler::RoundedBox<double>>(box, axes, reference, 1e-9).row_of_closest(closest, triangle);
+  BOOST_TEST((on_face.kind == feeler::FeaturePair::face_vertex));
+  BOOST_TEST((on_face.arm - (closest.triangle_point - reference)).norm() < 1e-15);
+  BOOST_TEST(on_face.core_distance == 0);
+}
+
 BOOST_AUTO_TEST_CASE(a_face_is_not_bent_by_the_radius) {
   SweptContactRow<double> row;
   row.normal = Vector(1, 2, 3).normalized();

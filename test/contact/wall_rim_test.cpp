@@ -137,4 +137,50 @@ BOOST_AUTO_TEST_CASE(of_triangles_that_share_a_point_the_known_one_is_preferred)
   }
 }
 
+BOOST_AUTO_TEST_CASE(of_two_rim_triangles_with_one_outermost_point_the_known_one_has_it) {
+  std::mt19937 bits(4);
+  const Sheet sheet(bits, 4);
+  const int wall = sheet.mesh.walls().of_triangle(0);
+  // The face begins a nanometre before the point at x = 0.25 where two triangles of the rim meet.
+  feeler::FixedVector<Vector, 16> loop;
+  for (const Vector& corner : {Vector(0.25 - 1e-9, -0.1, 0), Vector(0.4, -0.1, 0), Vector(0.4, 0.1, 0), Vector(0.25 - 1e-9, 0.1, 0)})
+    loop.push_back(sheet.axes * corner);
+  const auto found_knowing = [&](int known) {
+    std::set<int> found;
+    feeler::OutermostAtRim<double, double>(
+        sheet.mesh, wall, loop.size(), [&](int k) { return loop[k]; }, Vector(sheet.axes.col(2)))
+        .find([&](int t) { return t == known; }, [&](int t) { found.insert(t); });
+    return found;
+  };
+  std::vector<int> rim;  // triangles with an edge on y = 0, from x = 0 on
+  for (int t = 0; t < sheet.mesh.triangle_count(); ++t) {
+    const Eigen::Matrix3d corners = sheet.axes.transpose() * sheet.mesh.corners(t);
+    int on_rim = 0;
+    for (int k = 0; k < 3; ++k) on_rim += std::abs(corners(1, k)) < 1e-12;
+    if (on_rim == 2 && corners.row(0).maxCoeff() < 0.51) rim.push_back(t);
+  }
+  BOOST_TEST_REQUIRE(rim.size() == 2u);
+  std::sort(rim.begin(), rim.end(), [&](int a, int b) {
+    return (sheet.axes.transpose() * sheet.mesh.corners(a)).row(0).mean() < (sheet.axes.transpose() * sheet.mesh.corners(b)).row(0).mean();
+  });
+  BOOST_TEST(found_knowing(rim[0]).count(rim[0]) == 1u);
+  BOOST_TEST(found_knowing(rim[1]).count(rim[0]) == 0u);
+  BOOST_TEST(found_knowing(rim[1]).count(rim[1]) == 1u);
+}
+
+BOOST_AUTO_TEST_CASE(a_face_a_little_above_a_level_wall_finds_its_rim) {
+  std::mt19937 bits(5);
+  Sheet sheet(bits, 4);
+  sheet.axes.setIdentity();
+  sheet.mesh = sheet.make(4);
+  feeler::FixedVector<Vector, 16> loop;
+  for (const Vector& corner : {Vector(0.1, -0.1, 1e-5), Vector(0.4, -0.1, 1e-5), Vector(0.4, 0.1, 1e-5), Vector(0.1, 0.1, 1e-5)})
+    loop.push_back(corner);
+  std::set<int> found;
+  feeler::OutermostAtRim<double, double>(
+      sheet.mesh, sheet.mesh.walls().of_triangle(0), loop.size(), [&](int k) { return loop[k]; }, Vector::UnitZ())
+      .find([](int) { return false; }, [&](int t) { found.insert(t); });
+  BOOST_TEST(found.size() == 2u);
+}
+
 BOOST_AUTO_TEST_SUITE_END()
