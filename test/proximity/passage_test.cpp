@@ -7,6 +7,7 @@
 #include <random>
 #include <string>
 
+#include "feeler/tool/point.hpp"
 #include "support/random_motions.hpp"
 
 BOOST_AUTO_TEST_SUITE(passage)
@@ -377,6 +378,22 @@ BOOST_AUTO_TEST_CASE(a_line_that_rolls_over_an_edge_is_followed_to_where_it_lies
   BOOST_TEST(passage.time <= meets);
   BOOST_TEST(passage.time >= meets - 2 * clearance.resolution / moving.length());
   BOOST_TEST(work <= 20);
+}
+
+BOOST_AUTO_TEST_CASE(what_a_known_plane_parts_by_far_at_the_start_is_kept_off_in_whole_at_the_end) {
+  // A point comes over a triangle from beside it, sinking from 1.1 to 0.6 of what is kept above its plane.
+  const feeler::Point<double> tool;
+  const Clearance<double> clearance;
+  const double kept = clearance.kept;
+  const feeler::Pose<double> pose{Vector(1e-3, 0, 1.1 * kept), feeler::Quaternion<double>::Identity()};
+  const feeler::MovingTool<feeler::Point<double>> moving(tool, Vector::Zero(), 0, pose, {Vector(-2e-3, 0, -0.5 * kept), Vector::Zero()});
+  Eigen::Matrix3d corners;
+  corners << 0, 0, -0.1, -0.1, 0.1, 0, 0, 0, 0;
+  corners.colwise() -= pose.translation;
+  int work = 0;
+  const auto passage = pass(moving, {corners, Vector::UnitX(), {}, true}, moving.frame_at(0), moving.frame_at(1), clearance, work);
+  BOOST_TEST(passage.is_blocked);
+  BOOST_TEST(passage.time < 0.5 - 0.5 * kept / 2e-3);  // there it is beside the edge, 0.85 of what is kept above it
 }
 
 BOOST_AUTO_TEST_CASE(required_separation_never_exceeds_what_there_is_and_falls_no_further_than_twice_the_allowance) {
