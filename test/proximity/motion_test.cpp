@@ -270,6 +270,23 @@ BOOST_AUTO_TEST_CASE(the_limit_of_a_plane_is_as_high_as_a_point_that_swings_thro
   }
 }
 
+BOOST_AUTO_TEST_CASE(a_plane_parts_closely_what_the_motion_leaves_as_much_of_as_the_clearance_requires) {
+  const feeler::Clearance<double> clearance;
+  feeler::PlaneOnMotion<double> plane;
+  const auto parts = [&](double start, double least) {  // above a height of a metre
+    plane.start = 1 + start;
+    plane.least = 1 + least;
+    return plane.parts_closely(1, clearance);
+  };
+  const double kept = clearance.kept, allowance = clearance.allowance;
+  BOOST_TEST(parts(10 * kept, 1.01 * kept));
+  BOOST_TEST(!parts(10 * kept, 0.99 * kept));
+  BOOST_TEST(parts(0.8 * kept, 0.41 * kept));
+  BOOST_TEST(!parts(0.8 * kept, 0.39 * kept));
+  BOOST_TEST(parts(-1.5 * allowance, -1.49 * allowance));
+  BOOST_TEST(!parts(-1.5 * allowance, -1.51 * allowance));
+}
+
 BOOST_AUTO_TEST_CASE(a_full_cache_gives_up_the_plane_with_the_fewest_hits_and_keeps_the_others_in_order_of_use) {
   std::mt19937 bits(6);
   const RandomMotion<feeler::Box<double>> random(bits, random_box(bits));
