@@ -7,6 +7,7 @@
 #include <limits>
 #include <random>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "feeler/tool/convex_polytope.hpp"
@@ -188,6 +189,40 @@ BOOST_AUTO_TEST_CASE(noise_slivers_needles_and_far_places_keep_the_definition) {
   auto far = ellipsoid(100, Vector(1, 2, 3), 4);
   for (Vector& p : far) p += Vector(1e3, -1e3, 1e3);
   check_hull(far);
+}
+
+BOOST_AUTO_TEST_CASE(of_shapes_nearly_as_fine_as_their_rounding_faces_have_all_points_below_them_and_convex_outlines) {
+  using Wide = feeler::Vector3<long double>;
+  long double outside = 0, inward = 0;
+  for (unsigned seed = 1; seed <= 300; ++seed) {
+    std::mt19937 bits(seed);
+    const double fine = std::pow(10.0, -15.5 + 2 * (unit(bits) + 1));
+    const Eigen::Quaterniond turn = Eigen::Quaterniond(unit(bits), unit(bits), unit(bits), unit(bits)).normalized();
+    std::vector<Vector> points;  // of a wedge, a needle or noise on a cube
+    for (int i = 0; i < 100; ++i) {
+      const double x = unit(bits) + 1;
+      Vector point = random_vector(bits);
+      if (seed % 3 == 0) point = {x, point.y(), 10 * fine * x * point.z()};
+      if (seed % 3 == 1) point = point.cwiseProduct(Vector(1, fine, fine));
+      if (seed % 3 == 2) point[i % 3] = (i % 2 == 0 ? 1 : -1) * (1 + fine * unit(bits));
+      points.push_back(turn * point);
+    }
+    auto made = Polytope::try_hull_of(rows(points));
+    if (!made) continue;
+    const Polytope hull = std::move(made).value();
+    for (int f = 0; f < hull.face_count(); ++f) {
+      const auto face = hull.face(f);
+      const Wide normal = face.normal.cast<long double>();
+      const auto corner = [&](std::size_t k) { return Wide(hull.vertex(face.vertices[k % face.vertices.size()]).cast<long double>()); };
+      for (const Vector& point : points) outside = std::max(outside, normal.dot(point.cast<long double>() - corner(0)));
+      for (std::size_t k = 0; k < face.vertices.size(); ++k) {
+        const Wide side = corner(k + 1) - corner(k), next = corner(k + 2) - corner(k + 1);
+        inward = std::max(inward, -side.cross(next).dot(normal) / std::max(side.norm(), next.norm()));
+      }
+    }
+  }
+  BOOST_TEST(outside < 1e-14L);  // of eight roundings of their size
+  BOOST_TEST(inward < 2e-14L);
 }
 
 BOOST_AUTO_TEST_CASE(float_and_long_double_hulls_meet_the_same_definition) {
