@@ -458,7 +458,17 @@ BOOST_AUTO_TEST_CASE(what_is_near_a_standing_tool_is_noticed_or_lies_behind_the_
     // The nearest may be known, with the plane that parts it.
     const WideTool wide_tool = random.wide().tool_at(WideTool(tool), 0);
     std::vector<WideReal> distance(std::size_t(mesh.triangle_count()));
-    for (int t = 0; t < mesh.triangle_count(); ++t) distance[std::size_t(t)] = closest_features(wide_tool, wide(mesh.corners(t))).distance;
+    const auto centre = random.wide().pose_at(0).translation;
+    WideReal nearest = std::numeric_limits<WideReal>::infinity();
+    for (int t = 0; t < mesh.triangle_count(); ++t) {
+      const Eigen::Matrix3d corners = mesh.corners(t);
+      // By the balls about both it is no nearer than this; where that is beyond all that counts it suffices.
+      const double radii = tool.half_extents().norm() + (corners.colwise() - corners.col(0)).colwise().norm().maxCoeff();
+      WideReal apart = (corners.col(0).cast<WideReal>() - centre).norm() - WideReal(radii) - 1e-9L;
+      if (apart <= std::max(WideReal(clearance.kept), nearest)) apart = closest_features(wide_tool, wide(corners)).distance;
+      distance[std::size_t(t)] = apart;
+      nearest = std::min(nearest, apart);
+    }
     std::vector<KnownTriangle<double>> known;
     struct Front {
       Vector normal;
