@@ -11,6 +11,7 @@
 #include "fuzz/random_hand.hpp"
 #include "fuzz/random_object.hpp"
 #include "scenes/renderers.hpp"
+#include "scenes/round_renderers.hpp"
 #include "support/penetration_checker.hpp"
 #include "support/rendering.hpp"
 

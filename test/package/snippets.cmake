@@ -5,8 +5,11 @@ function(feeler_add_documented_program program source)
   if(device_headers AND NOT TARGET feeler::device)
     return()
   endif()
-  add_executable(${program} ${source})
-  target_link_libraries(${program} PRIVATE feeler_development feeler::feeler $<TARGET_NAME_IF_EXISTS:feeler::device>)
+  # Its own headers come first, so it has all it needs; of the renderers in it, those of the scenes are compiled already.
+  set(wrapped ${CMAKE_CURRENT_BINARY_DIR}/wrapped/${program}.cpp)
+  file(CONFIGURE OUTPUT ${wrapped} CONTENT "#include \"${source}\"\n#include \"scenes/renderers.hpp\"\n#include \"scenes/round_renderers.hpp\"\n")
+  add_executable(${program} ${wrapped})
+  target_link_libraries(${program} PRIVATE feeler_development feeler-scene-renderers feeler-round-renderers $<TARGET_NAME_IF_EXISTS:feeler::device>)
   target_compile_options(${program} PRIVATE -O0)  # they are all the same code, and run for a moment
   target_compile_definitions(${program} PRIVATE FEELER_COMPILE_QUICKLY)
   add_test(NAME package_${program}_runs COMMAND ${program})

@@ -8,6 +8,7 @@
 
 #include "feeler/feeler.hpp"
 #include "scenes/renderers.hpp"
+#include "scenes/round_renderers.hpp"
 #include "scenes/scene.hpp"
 #include "support/penetration_checker.hpp"
 

@@ -10,10 +10,7 @@
 #include "fuzz/laws/law_hand.hpp"
 #include "fuzz/laws/law_scene.hpp"
 #include "scenes/renderers.hpp"
-
-namespace feeler {
-extern template class HapticRenderer<Sphere<double>>;
-}
+#include "scenes/round_renderers.hpp"
 
 namespace feeler::laws {
 

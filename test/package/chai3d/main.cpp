@@ -6,6 +6,7 @@
 #include <memory>
 
 #include "chai3d_tool.hpp"
+#include "scenes/round_renderers.hpp"
 
 namespace {
 
