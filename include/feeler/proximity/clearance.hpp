@@ -16,10 +16,11 @@ struct Clearance {
   Scalar resolution;  ///< advance too small to look for [m]
   Scalar probe;  ///< length of motion over which all blockers are wanted, not only the first [m]
 
-  /// The defaults are those of the settings.
+  /// With the defaults of the settings.
+  Clearance() noexcept : Clearance(Scalar(1e-6), Scalar(4e-4)) {}
   /// @param margin  that is wanted [m]
   /// @param way     length of a motion near the object [m]
-  explicit Clearance(Scalar margin = Scalar(1e-6), Scalar way = Scalar(4e-4)) noexcept
+  Clearance(Scalar margin, Scalar way) noexcept
       : kept(margin / 10), allowance(way / 400 / 200000), touching(way / 400 / 100), resolution(way / 400 / 4), probe(way / 4) {}
 
   /// A separation up to it is none: rounding decided how much there is [m].
