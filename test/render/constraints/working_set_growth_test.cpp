@@ -23,7 +23,7 @@ struct Room {
   /// A pair of a triangle that has rows, with a separation [m].
   auto& add(int triangle, double slack) {
     auto& pair = take_in(pairs, scene, 0, triangle, {});
-    pair.slack = slack;
+    pair.set_plane(Vector3<double>::UnitZ(), slack);
     pair.state = PairState::has_rows;
     return pair;
   }
@@ -43,15 +43,13 @@ BOOST_AUTO_TEST_CASE(an_unknown_blocker_is_taken_in) {
   BOOST_TEST(room.pairs.find(0, 1) == 0);
 }
 
-BOOST_AUTO_TEST_CASE(a_known_one_without_clearance_asks_once_for_the_rim_of_its_wall) {
+BOOST_AUTO_TEST_CASE(a_known_one_without_clearance_asks_for_the_rim_of_its_wall) {
   Room room;
   BOOST_TEST_REQUIRE((room.mesh.walls().of_triangle(0) >= 0 && room.mesh.walls().of_triangle(0) == room.mesh.walls().of_triangle(1)));
   room.add(0, 0.0);
-  BOOST_TEST(room.meet(0));
+  BOOST_TEST(!room.meet(0));  // the motion is shortened all the same
   BOOST_TEST(room.pairs[0].wants_rim);
   BOOST_TEST((room.pairs[0].state == PairState::left_out));
-  room.pairs[0].state = PairState::has_rows;
-  BOOST_TEST(!room.meet(0));
 }
 
 BOOST_AUTO_TEST_CASE(a_known_one_that_touches_teaches_nothing_where_there_is_clearance_or_no_wall) {

@@ -30,18 +30,16 @@ bool take_in_noticed(Pairs& pairs, const Scene& scene, const NoticedTriangles& a
   return is_new;
 }
 
-/// Without clearance, where what blocked a motion was there with its rows: asks for what is at the rims of its walls; false if all of it was asked.
+/// Without clearance, where what blocked a motion was there with its rows: what is at the rims of its walls is to join.
 template <class Pairs, class Scene>
-bool want_rims(Pairs& pairs, const Scene& scene, const SweepResult<typename Scene::Scalar>& result) noexcept {
-  if (!pairs.has_no_clearance(scene.clearance().none())) return false;
-  bool is_new = false;
+void want_rims(Pairs& pairs, const Scene& scene, const SweepResult<typename Scene::Scalar>& result) noexcept {
+  if (!pairs.has_no_clearance(scene.clearance().none())) return;
   for (const auto& blocker : result.blockers) {
     auto& pair = pairs[pairs.find(blocker.piece, blocker.triangle)];
     if (pair.wants_rim || scene.object().walls().of_triangle(blocker.triangle) < 0) continue;
-    is_new = pair.wants_rim = true;
+    pair.wants_rim = true;
     pair.state = PairState::left_out;  // to be measured again
   }
-  return is_new;
 }
 
 /// Takes in what blocked a motion; false when another linearisation would find no more than the last, as all of it was there already with rows of its
@@ -70,7 +68,8 @@ bool take_in_blockers(Pairs& pairs, const Scene& scene, const SweepResult<typena
     }
   }
   // What touches stops the tool before what was left out comes near.
-  return is_new || (meets_touching ? want_rims(pairs, scene, result) : meets_left_out);
+  if (!is_new && meets_touching) want_rims(pairs, scene, result);
+  return is_new || (meets_left_out && !meets_touching);
 }
 
 }  // namespace feeler
