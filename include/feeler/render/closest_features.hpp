@@ -203,7 +203,7 @@ class ClosestFeaturesFollower {
     const Pose<Scalar> end = scene.idle_turns().moved(pose_, trial.motion);
     if (it.came_to_nothing && (is_held || trial.is_at_rest) && !descends_clearly(scene.metric(), off_, off_target(scene, end), scene.margin()))
       return Outcome::arrived;
-    if (it.length <= search_.no_motion(scene)) return trial.is_settled && !trial.is_capped ? Outcome::arrived : Outcome::stalled;
+    if (it.length <= scene.no_motion()) return trial.is_settled && !trial.is_capped ? Outcome::arrived : Outcome::stalled;
     it.came_to_nothing = false;
     it.end = end;
     if (is_descent(scene)) return Outcome::proposed;

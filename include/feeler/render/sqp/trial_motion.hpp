@@ -44,9 +44,6 @@ class TrialMotionSearch {
   /// What is farther away cannot stop the next step [m].
   static Scalar reach_of_step(const Scene& scene, const StepLimits<Scalar>& limits) noexcept { return limits.trust() + scene.margin(); }
 
-  /// What is no motion; where there is no room for more pairs some come and go, and move the tool by a hair [m].
-  Scalar no_motion(const Scene& scene) const noexcept { return linearisation_.pairs().full() ? scene.at_rest() : scene.no_motion(); }
-
   explicit TrialMotionSearch(const Scene& scene) : linearisation_(scene) {}
 
   Rows& linearisation() noexcept { return linearisation_; }
