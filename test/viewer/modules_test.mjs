@@ -76,18 +76,19 @@ test('ticks, missed deadlines and converged ones are counted', () => {
 });
 
 test('a recording that is written is read again', () => {
-  const stage = { stage: 3, title: 'x' };
+  const stage = { stage: 3, title: 'x', tool: [] };
   const text = writeRecording(stage, meshBuffer(), [frame(1), frame(2, { type: 2, times: [1.5, 2] }), frame(3, { stage: 4 })]);
   const { mesh, timeline, stage: read } = readRecording(text);
   assert.deepEqual(read, stage);
   assert.equal(mesh.positions.length, 9);
-  assert.deepEqual(timeline.frames.map((f) => f.time), [1, 2]);
-  assert.equal(timeline.samples.count, 3);
-  assert.deepEqual(timeline.events.map((e) => e.time), [1, 2]);
+  assert.deepEqual(timeline.frames.map((f) => f.time), [0, 1]);  // it begins at 0
+  assert.deepEqual([0, 1, 2].map((i) => timeline.samples.time(i)), [0, 0.5, 1]);
+  assert.deepEqual(timeline.events.map((e) => e.time), [0, 1]);
 });
 
 test('what is no recording is refused in words', () => {
   for (const text of ['', '{', '{}', '[]', 'null', '{"feeler_recording":2}']) assert.throws(() => readRecording(text), /no recording/);
+  for (const text of ['{"feeler_recording":1}', '{"feeler_recording":1,"mesh":"%","frames":"%"}']) assert.throws(() => readRecording(text), /is damaged/);
 });
 
 test('samples are saved one a line', () => {

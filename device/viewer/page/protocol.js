@@ -4,6 +4,7 @@ export const wireVersion = 1;
 const kinds = { frame: 1, mesh: 2 };
 
 const frameHead = 34, contactWords = 9;
+export const frameTime = 4;  // where a frame has its time
 export const sampleWords = 15;
 
 /** Columns of a sample, in the order of the wire. SI units; times of computation in microseconds. */
@@ -37,7 +38,7 @@ function readFrame(words) {
   for (let i = 0; i < contactCount; ++i) contacts.push(readContact(words, frameHead + contactWords * i));
   const begin = frameHead + contactWords * contactCount;
   return {
-    kind: 'frame', stage: words[2], tick: words[3], time: words[4], mode: handModes[words[5]], haptic: poseAt(words, 6), graphic: poseAt(words, 13),
+    kind: 'frame', stage: words[2], tick: words[3], time: words[frameTime], mode: handModes[words[5]], haptic: poseAt(words, 6), graphic: poseAt(words, 13),
     force: Array.from(words.subarray(20, 23)), torque: Array.from(words.subarray(23, 26)), status: statuses[words[26]], iterations: words[27],
     rows: words[28], work: words[29], missed: words[30], lost: words[31],
     contacts: contacts.filter((c) => c.type > 0), holding: contacts.filter((c) => c.type === 0),

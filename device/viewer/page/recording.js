@@ -1,5 +1,5 @@
 // Recordings: a stage, its mesh and its frames in one JSON document. device/demo/live/report_player.cpp writes the same.
-import { readFrameAt, readMessage, sampleWords } from './protocol.js';
+import { frameTime, readFrameAt, readMessage, sampleIndex, sampleWords } from './protocol.js';
 import { Timeline } from './timeline.js';
 
 const version = 1;
@@ -17,6 +17,17 @@ function base64Of(buffer) {
   return btoa(text);
 }
 
+const damaged = 'The recording is damaged: record it again.';
+
+/** The binary parts of a document. @throws Error with a sentence where they are none */
+function partsOf({ stage, mesh, frames }) {
+  try {
+    const scene = readMessage(bytesOf(mesh)), words = Float64Array.from(new Float32Array(bytesOf(frames)));
+    if (scene.kind === 'mesh' && typeof stage.title === 'string' && Array.isArray(stage.tool)) return { scene, words };
+  } catch { /* whatever is wrong with it */ }
+  throw new Error(damaged);
+}
+
 /** @return {stage, mesh, timeline}  @throws Error with a sentence where the text is no recording */
 export function readRecording(text) {
   let document;
@@ -26,7 +37,7 @@ export function readRecording(text) {
     throw new Error('This file is no recording of Feeler: choose replay.json of a report.');
   }
   if (document?.feeler_recording !== version) throw new Error('This file is no recording of this version of Feeler: record it again.');
-  const words = Float64Array.from(new Float32Array(bytesOf(document.frames)));
+  const { scene, words } = partsOf(document);
   const frames = [];
   let sampleCount = 0;
   for (let at = 0; at < words.length;) {
@@ -44,17 +55,20 @@ export function readRecording(text) {
     if (now !== types) timeline.addEvent(frame.time, 'switch');
     types = now;
   }
-  return { stage: document.stage, mesh: readMessage(bytesOf(document.mesh)), timeline };
+  return { stage: document.stage, mesh: scene, timeline };
 }
 
-/** Of a live view: the frames that are kept, of the stage on show. */
+/** Of a live view: the frames that are kept, of the stage on show. Its time begins at 0, so that two recordings run together. */
 export function writeRecording(stage, meshBuffer, frames) {
-  const words = frames.filter((frame) => frame.stage === stage.stage).map((frame) => frame.words);
-  const all = new Float32Array(words.reduce((sum, w) => sum + w.length, 0));
+  const kept = frames.filter((frame) => frame.stage === stage.stage);
+  const all = new Float32Array(kept.reduce((sum, { words }) => sum + words.length, 0));
+  const begin = kept[0]?.samples[sampleIndex.time] ?? kept[0]?.time;
   let at = 0;
-  for (const w of words) {
-    all.set(w, at);
-    at += w.length;
+  for (const { words, samples, time } of kept) {
+    all.set(words, at);
+    all[at + frameTime] = time - begin;
+    at += words.length;
+    for (let i = sampleIndex.time; i < samples.length; i += sampleWords) all[at - samples.length + i] = samples[i] - begin;
   }
   return JSON.stringify({ feeler_recording: version, stage, mesh: base64Of(meshBuffer), frames: base64Of(all.buffer) });
 }
