@@ -15,7 +15,7 @@ export class LiveSession {
     this.page = page;
     this.source = new LiveSource({
       hello: (hello) => this.hello(hello), gallery: ({ gallery }) => this.setGallery(gallery), stage: (stage) => this.setStage(stage),
-      mesh: (mesh) => this.setMesh(mesh), frame: (frame) => this.addFrame(frame), sentence: (_, text) => page.say(text),
+      mesh: (mesh) => this.setMesh(mesh), frame: (frame) => this.addFrame(frame), sentence: (type, text) => this.hear(type, text),
       connection: (state) => this.showConnection(state),
     });
     this.held = new HeldPose(page.view, this.source);
@@ -64,8 +64,19 @@ export class LiveSession {
   }
 
   choose(request) {
-    this.page.say('Building the scene …', true);
-    this.source.choose(request);
+    if (this.source.choose(request)) return this.page.say('Building the scene …', true);
+    this.page.say('The connection is lost: choose again when it is back.');
+    return this.showSettings();
+  }
+
+  /** What the program says; where it refuses, the settings are still those of the stage on show. */
+  hear(type, text) {
+    this.page.say(text);
+    if (type === 'refusal') this.showSettings();
+  }
+  showSettings() {
+    const { stage } = this.page;
+    if (stage) showSettings($('settings'), this.greeting, stage, (request) => this.choose(request));
   }
 
   async openMesh(file) {
@@ -88,7 +99,7 @@ export class LiveSession {
     page.panes[0].setStage(stage);
     document.title = `Feeler: ${stage.title}`;
     markScene($('gallery'), stage.scene);
-    showSettings($('settings'), this.greeting, stage, (request) => this.choose(request));
+    this.showSettings();
     if (!isSameScene) page.setLook({ ...defaultLook, ...sceneLooks[stage.scene] });
     page.player.goLive();
   }

@@ -55,8 +55,11 @@ export class LiveSource {
     else this.listeners.sentence(message.type, message.text ?? message.reason);
   }
 
+  /** @return whether there is a connection */
   send(message) {
-    if (this.socket.readyState === WebSocket.OPEN) this.socket.send(JSON.stringify(message));
+    const isOpen = this.socket.readyState === WebSocket.OPEN;
+    if (isOpen) this.socket.send(JSON.stringify(message));
+    return isOpen;
   }
   /** The hand to a pose: position [m] and quaternion x, y, z, w. */
   moveHand({ position, quaternion: [x, y, z, w] }) {
@@ -69,7 +72,7 @@ export class LiveSource {
     this.send({ type: 'motion', stage: this.stage });
   }
   choose(request) {
-    this.send({ type: 'scene', ...request });
+    return this.send({ type: 'scene', ...request });
   }
   /** A mesh, to become a scene. @throws Error with a sentence where it is not taken */
   async sendFile(file) {

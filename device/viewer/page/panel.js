@@ -62,7 +62,9 @@ export function showSettings(form, hello, stage, choose) {
     select('Contact method', 'method', hello.methods.map(({ id, label }) => [id, label]), stage.method),
     select('Scalar', 'scalar', hello.scalars.map(({ id, label }) => [id, label]), stage.scalar),
   ];
+  const focused = form.contains(document.activeElement) && document.activeElement.name;
   form.replaceChildren(...[fields, render].filter((group) => group.length > 1).map((group) => element('fieldset', {}, ...group)));
+  if (focused) form.elements[focused]?.focus();  // so that its next key is heard
   form.onchange = () => {
     const values = Object.fromEntries(new FormData(form));
     const request = { scene: stage.scene, stiffness: Number(values.stiffness), margin: Number(values.margin), tool: values.tool, method: values.method, scalar: values.scalar };
