@@ -38,7 +38,10 @@ class Page {
     $('save-png').onclick = () => this.savePicture();
     $('save-csv').onclick = () => download(this.fileName('csv'), new Blob([csvOf(this.timeline)], { type: 'text/csv' }));
     $('save-recording').onclick = () => this.saveRecording();
-    $('open-recording').onchange = (event) => this.openFiles([...event.target.files]);
+    $('open-recording').onchange = ({ target }) => {
+      this.openFiles([...target.files]);
+      target.value = '';  // so that the same file can be opened again
+    };
     $('window').onchange = (event) => {
       this.strips.window = Number(event.target.value);
       this.askForStrips();
@@ -91,6 +94,7 @@ class Page {
   /** @param recordings  one, or two to be seen side by side */
   replay(recordings) {
     this.live?.end();
+    this.say('');
     document.body.classList.add('replay');
     this.recordings = recordings.slice(0, 2);
     this.timeline = this.recordings[0].timeline;
@@ -216,7 +220,7 @@ class Page {
     download(this.fileName('png'), await pngOf(this.view, canvases, palette, `${this.stage.title} · ${this.panes[0].parts.meta.textContent}`));
   }
   saveRecording() {
-    const mesh = this.meshBuffer ?? this.recordings[0]?.mesh.buffer;
+    const mesh = this.recordings[0]?.mesh.buffer ?? this.meshBuffer;
     if (!mesh) return this.say('There is nothing to save yet.');
     return download(this.fileName('json'), new Blob([writeRecording(this.stage, mesh, this.timeline.frames)], { type: 'application/json' }));
   }

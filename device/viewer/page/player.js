@@ -15,6 +15,7 @@ export class Player {
     elements.slider.oninput = () => this.seek(Number(elements.slider.value));
     elements.back.onclick = () => this.step(-1);
     elements.forth.onclick = () => this.step(1);
+    elements.speed.onchange = () => this.rate !== 0 && this.play(this.speed);
     elements.live.hidden = isReplay;
     this.update();
   }
