@@ -35,7 +35,7 @@ export async function pngOf({ canvas: sceneCanvas, closeUp }, stripCanvases, { b
   context.font = '12px system-ui, "DejaVu Sans", sans-serif';
   stripCanvases.forEach((strip, i) => {
     const x = (i % columns) * width / columns + 6, y = sceneCanvas.height + Math.floor(i / columns) * (rowHeight + titles);
-    context.fillText(`${strip.ariaLabel}  ${strip.parentElement.querySelector('output').textContent}`, x, y + 13);
+    context.fillText(`${strip.ariaLabel}  ${strip.parentElement.querySelector('output').textContent}`, x, y + 13, width / columns - 12);
     context.drawImage(strip, x, y + titles, width / columns - 12, rowHeight - 6);
   });
   return new Promise((resolve) => canvas.toBlob(resolve, 'image/png'));
