@@ -189,7 +189,7 @@ BOOST_AUTO_TEST_CASE(lengths_scaled_by_a_power_of_two_scale_every_tick_to_the_la
           contacts += renderer.tick().contacts.size();
         }
         BOOST_TEST(different == 0, base->name << " times " << s << ": " << different << " ticks differ");
-        BOOST_TEST(contacts > 0);
+        BOOST_TEST((contacts > 0 || !runs_all_ticks));
       });
     }
   }
