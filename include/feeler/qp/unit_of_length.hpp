@@ -12,6 +12,7 @@ namespace feeler {
 /// @param unit  the new one, in the old one; where it is a power of two no digit changes
 template <class Scalar>
 void change_unit_of_length(QpProblem<Scalar>& problem, Scalar unit) noexcept {
+  if (unit == Scalar(1)) return;
   const Scalar units = Scalar(1) / unit;
   for (int k = 0; k < problem.row_count; ++k) {
     problem.rows[std::size_t(k)].template tail<3>() *= units;
@@ -24,6 +25,7 @@ void change_unit_of_length(QpProblem<Scalar>& problem, Scalar unit) noexcept {
 }
 template <class Scalar>
 void change_unit_of_length(QpSolution<Scalar>& solution, Scalar unit) noexcept {
+  if (unit == Scalar(1)) return;
   const Scalar units = Scalar(1) / unit;
   solution.step.template head<3>() *= units;
   for (auto& active : solution.active) active.multiplier *= units;

@@ -49,11 +49,11 @@ class NeighbourQueue {
     }
     const auto too_near = scene.noticed();
     // Without clearance all walls touch, and the certificate tells which of them hold.
-    const bool may_hold = !pairs.has_no_clearance(scene.clearance().none());
-    if (closest.distance < too_near && may_hold) {
+    const auto has_clearance = [&] { return !pairs.has_no_clearance(scene.clearance().none()); };
+    if (closest.distance < too_near && has_clearance()) {
       patch.visit_continuations(too_near, [&](int triangle) { bring(triangle, {}); });
     }
-    if (closest.distance < scene.contact_distance() && (may_hold || pair.wants_rim) && note_wall(scene, pair)) {
+    if (closest.distance < scene.contact_distance() && (pair.wants_rim || has_clearance()) && note_wall(scene, pair)) {
       patch.visit_rim([&](int triangle) { return pairs.find(pair.piece, triangle) >= 0; }, [&](int triangle) { bring(triangle, {}); });
     }
   }

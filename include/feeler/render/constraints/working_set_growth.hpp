@@ -67,8 +67,8 @@ bool take_in_blockers(Pairs& pairs, const Scene& scene, const SweepResult<typena
       meets_left_out = true;
     }
   }
-  // What touches stops the tool before what was left out comes near.
   if (!is_new && meets_touching) want_rims(pairs, scene, result);
+  // What touches stops the tool before what was left out comes near.
   return is_new || (meets_left_out && !meets_touching);
 }
 
