@@ -33,7 +33,7 @@ class ConvexPolytope {
   /// Vertices are bit-identical to points given. Points less than 4 eps × size outside a face are dropped,
   /// faces coplanar to that are merged; size is the diagonal of the bounding box plus the largest coordinate,
   /// where the rounding of the points comes from. Refuses fewer than 4 points, points not finite, all equal,
-  /// on a line or in a plane, and hulls of more than `maximum_vertex_count` vertices.
+  /// on a line or in a plane to 64 eps × size, and hulls of more than `maximum_vertex_count` vertices.
   /// @cost  allocates; milliseconds for thousands of points
   static ConvexPolytope hull_of(const Points<Scalar>& points) { return try_hull_of(points).value(); }
   /// The same, or the reason against it.

@@ -52,8 +52,8 @@ struct HullLattice {
     tolerance = (std::max)(tolerance, 4.0L);
   }
 
-  /// Four points far apart: the ends of the longest axis, the point farthest from their line, the point
-  /// farthest from their plane.
+  /// Four points far apart: the ends of the longest axis, the point farthest from their line, the point farthest from their plane.
+  /// Points thinner than `thinnest` span none: the sides of planes through them would be matters of rounding.
   std::array<int, 4> simplex(const std::vector<LatticePoint>& corners) {
     std::array<int, 4> result{};
     std::int64_t longest = -1;
@@ -76,7 +76,8 @@ struct HullLattice {
       }
     }
     const long double base = std::sqrt(square(b.x - a.x) + square(b.y - a.y) + square(b.z - a.z));
-    if (!(width > tolerance * base)) {
+    const long double thinnest = 16 * tolerance;
+    if (!(width > thinnest * base)) {
       reason = "ConvexPolytope: all points are on one line; give points with a volume, or use Segment";
       return result;
     }
@@ -89,7 +90,7 @@ struct HullLattice {
         result[3] = int(i);
       }
     }
-    if (!(thickness > tolerance)) reason = "ConvexPolytope: all points are in one plane; give points with a volume, for a sheet two layers of them";
+    if (!(thickness > thinnest)) reason = "ConvexPolytope: all points are in one plane; give points with a volume, for a sheet two layers of them";
     return result;
   }
 
