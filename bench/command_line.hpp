@@ -3,11 +3,26 @@
 
 #include <cstdio>
 #include <exception>
+#include <sstream>
 #include <stdexcept>
+#include <string>
 
 #include <CLI/CLI.hpp>
 
 namespace feeler::bench {
+
+/// Refuses an option that is not a number between two limits, as NaN is not.
+template <class Number>
+CLI::Validator within(Number least, Number most) {
+  std::ostringstream range;
+  range << least << " to " << most;
+  return {[=, words = range.str()](std::string& text) {
+            Number value{};
+            const bool is_within = CLI::detail::lexical_cast(text, value) && value >= least && value <= most;
+            return is_within ? std::string() : text + " is not a number from " + words;
+          },
+          "from " + range.str()};
+}
 
 /// Reads the options of a program from its command line, then runs it.
 /// @return what `run` returns; 0 after --help; 2, with a sentence on the standard error, where an option is refused, `run` throws, or what it printed cannot be written

@@ -185,6 +185,7 @@ int main(int argc, char** argv) {
   app.add_option("--group", options.groups, "groups of cases; all where not given")->delimiter(',');
   app.add_option("--scalar", options.renderings, "float, double or long_double, as far as compiled in; all where not given")->delimiter(',');
   app.add_flag("--markdown", options.is_markdown, "the table of docs/extremes.md");
-  app.add_option("--soak", options.soak, "run so many ticks in a row instead, and watch drift and memory")->check(CLI::PositiveNumber);
+  app.add_option("--soak", options.soak, "run so many ticks in a row instead, and watch drift and memory")
+      ->check(feeler::bench::within(1L, 10'000'000'000L));
   return bench::run_with_options(app, argc, argv, [&] { return options.soak > 0 ? soak(options.soak) : run_battery(options); });
 }

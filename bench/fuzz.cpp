@@ -63,8 +63,8 @@ int main(int argc, char** argv) {
   std::string tool = "all", law;
   CLI::App app("feeler-fuzz: random objects, tools, settings and hands, watched by the checker", "feeler-fuzz");
   const auto* const seed_option = app.add_option("--seed", seed, "of the first trial, the next ones count on; new each run unless given");
-  app.add_option("--trials", trials, "for each kind of tool, or for each law")->check(CLI::Range(1, 1'000'000));
-  app.add_option("--ticks", ticks, "a trial")->check(CLI::Range(1, 1'000'000));
+  app.add_option("--trials", trials, "for each kind of tool, or for each law")->check(feeler::bench::within(1, 1'000'000));
+  app.add_option("--ticks", ticks, "a trial")->check(feeler::bench::within(1, 1'000'000));
   app.add_option("--tool", tool, "all, or one kind")
       ->check(CLI::IsMember({"all", "point", "segment", "box", "polytope", "sphere", "capsule", "rounded-box", "rounded-hull", "compound"}));
   app.add_option("--law", law, "of the nearest pose: all, or one; in place of tools")

@@ -217,8 +217,8 @@ int run(const Options& options) {
 int main(int argc, char** argv) {
   Options options;
   CLI::App app("Times QP solvers on contact problems, and measures how far their answers lie from the exact ones.", "feeler-qp-bench");
-  app.add_option("--problems", options.problems, "of each family, at least")->check(CLI::Range(1, 100000));
-  app.add_option("--rounds", options.rounds, "over the problems of a family; the median counts")->check(CLI::Range(1, 1000));
+  app.add_option("--problems", options.problems, "of each family, at least")->check(feeler::bench::within(1, 100000));
+  app.add_option("--rounds", options.rounds, "over the problems of a family; the median counts")->check(feeler::bench::within(1, 1000));
   app.add_option("--seed", options.seed, "of the problems");
   app.add_option("--family", options.family, "only this one");
   app.add_option("--out", options.out, "folder for qp.csv and the plot");

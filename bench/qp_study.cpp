@@ -94,7 +94,7 @@ int main(int argc, char** argv) {
   int problems = 1000;
   unsigned seed = std::random_device()();
   CLI::App app("Counts wrong answers of QP solvers on fresh contact problems, judged in exact arithmetic.", "feeler-qp-study");
-  app.add_option("--problems", problems, "how many, over all families")->check(CLI::Range(1, 100000000));
+  app.add_option("--problems", problems, "how many, over all families")->check(feeler::bench::within(1, 100000000));
   app.add_option("--seed", seed, "of the problems; a new one each run unless given");
 
   return feeler::bench::run_with_options(app, argc, argv, [&] {

@@ -258,13 +258,13 @@ int main(int argc, char** argv) {
   CLI::App app("feeler-replay: how long a tick takes, how exact it is, and what penetrates", "feeler-replay");
   app.add_option("--scene", options.scene, "cavity, steps, spline, sulcus, teeth, terrain or all")
       ->check(CLI::IsMember({"all", "cavity", "steps", "spline", "sulcus", "teeth", "terrain"}));
-  app.add_option("--rate", options.rate, "ticks a second")->check(CLI::Range(100.0, 1e5));
-  app.add_option("--seconds", options.seconds, "length of the motion")->check(CLI::Range(0.01, 1e4));
+  app.add_option("--rate", options.rate, "ticks a second")->check(feeler::bench::within(100.0, 1e5));
+  app.add_option("--seconds", options.seconds, "length of the motion")->check(feeler::bench::within(0.01, 1e4));
   app.add_option("--hostile", options.hostile_seed, "seed of teleports and spins; 0 for none");
-  app.add_option("--check", options.check_every, "check every Nth tick for penetration; 0 for none")->check(CLI::NonNegativeNumber);
+  app.add_option("--check", options.check_every, "check every Nth tick for penetration; 0 for none")->check(feeler::bench::within(0, 1000000000));
   app.add_option("--settle", options.settle_every, "hold the device at every Nth contact tick and see where the tool settles; 0 for none")
-      ->check(CLI::NonNegativeNumber);
-  app.add_option("--budget", options.work_budget, "Settings::work_budget; 0 for the default")->check(CLI::NonNegativeNumber);
+      ->check(feeler::bench::within(0, 1000000000));
+  app.add_option("--budget", options.work_budget, "Settings::work_budget; 0 for the default")->check(feeler::bench::within(0, 1000000000));
   app.add_option("--margin", options.margin, "Settings::margin in metres; 0 for the default");
   app.add_flag("--work", options.counts_work, "report the work of a tick, which does not depend on the machine, in place of its time");
   app.add_flag(

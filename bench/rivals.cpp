@@ -128,12 +128,12 @@ int main(int argc, char** argv) {
       "feeler-rivals");
   app.add_option("--scene", options.scene, "cavity, steps, spline, sulcus, terrain, teeth, plates or all")
       ->check(CLI::IsMember({"all", "cavity", "steps", "spline", "sulcus", "terrain", "teeth", "plates"}));
-  app.add_option("--rate", options.contest.rate, "ticks a second")->check(CLI::Range(100.0, 1e5));
-  app.add_option("--seconds", options.seconds, "length of the motion; 0 for the scene's own")->check(CLI::Range(0.0, 1e4));
-  app.add_option("--repeats", options.contest.repeats, "identical runs; a tick's time is the least of them")->check(CLI::Range(1, 1000));
-  app.add_option("--check", options.contest.check_every, "check every Nth tick for penetration")->check(CLI::Range(1, 1000000));
+  app.add_option("--rate", options.contest.rate, "ticks a second")->check(feeler::bench::within(100.0, 1e5));
+  app.add_option("--seconds", options.seconds, "length of the motion; 0 for the scene's own")->check(feeler::bench::within(0.0, 1e4));
+  app.add_option("--repeats", options.contest.repeats, "identical runs; a tick's time is the least of them")->check(feeler::bench::within(1, 1000));
+  app.add_option("--check", options.contest.check_every, "check every Nth tick for penetration")->check(feeler::bench::within(1, 1000000));
   app.add_option("--patience", options.contest.patience, "processor seconds after which a contender drops out of a run")
-      ->check(CLI::Range(1e-3, 1e6));
+      ->check(feeler::bench::within(1e-3, 1e6));
   app.add_option("--teeth", options.teeth, "mesh file of the lower teeth");
   app.add_option("--out", options.folder, "folder of the CSV files, tables and figures");
   app.add_flag("--scaling", options.is_scaling, "grow the object and the tool, and cut the tool, instead");

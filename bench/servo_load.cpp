@@ -60,9 +60,9 @@ int main(int argc, char** argv) {
   int processor = -1;
   std::string histogram;
   CLI::App app("How late the servo loop is, over minutes; load the machine beside it.", "feeler-servo-load");
-  app.add_option("--rate", rate, "of the loop [Hz]")->check(CLI::Range(10.0, 20000.0))->capture_default_str();
-  app.add_option("--seconds", seconds, "to run")->check(CLI::Range(0.01, 1e5))->capture_default_str();
-  app.add_option("--processor", processor, "to run on; -1 for any")->check(CLI::Range(-1, 4095))->capture_default_str();
+  app.add_option("--rate", rate, "of the loop [Hz]")->check(feeler::bench::within(10.0, 20000.0))->capture_default_str();
+  app.add_option("--seconds", seconds, "to run")->check(feeler::bench::within(0.01, 1e5))->capture_default_str();
+  app.add_option("--processor", processor, "to run on; -1 for any")->check(feeler::bench::within(-1, 4095))->capture_default_str();
   app.add_option("--histogram", histogram, "file for the wake-up latencies as CSV");
   return feeler::bench::run_with_options(app, argc, argv, [&] { return run(rate, seconds, processor, histogram); });
 }

@@ -154,9 +154,11 @@ int main(int argc, char** argv) {
   Options options;
   CLI::App app("Splits a tool that is not convex into convex pieces, and says how far off they are.", "feeler-split-tool");
   app.add_option("mesh", options.mesh, "closed triangle mesh of the tool: STL, OBJ, PLY or OFF")->required();
-  app.add_option("--scale", options.scale, "metres a unit of the file")->check(CLI::PositiveNumber)->capture_default_str();
-  app.add_option("--pieces", options.pieces, "at least so many")->check(CLI::Range(1, 64))->capture_default_str();
-  app.add_option("--concavity", options.concavity, "of a piece that is convex enough [m]")->check(CLI::PositiveNumber)->capture_default_str();
+  app.add_option("--scale", options.scale, "metres a unit of the file")->check(feeler::bench::within(1e-9, 1e9))->capture_default_str();
+  app.add_option("--pieces", options.pieces, "at least so many")->check(feeler::bench::within(1, 64))->capture_default_str();
+  app.add_option("--concavity", options.concavity, "of a piece that is convex enough [m]")
+      ->check(feeler::bench::within(1e-9, 1e3))
+      ->capture_default_str();
   app.add_option("--out", options.folder, "folder for the corners of the pieces, a file each")->capture_default_str();
   return feeler::bench::run_with_options(app, argc, argv, [&] { return run(options); });
 }

@@ -66,7 +66,7 @@ int main(int argc, char** argv) {
                  "of what is in the folder")
       ->check(CLI::IsMember({"all", "presets", "limits", "rivals", "slides", "extrapolation", "passivity", "theory", "traces", "figures"}));
   app.add_option("--device", options.devices, "presets by their short names; all where none is given")->check(CLI::IsMember(names))->delimiter(',');
-  app.add_option("--rate", options.rates, "of the loop in the study of limits [Hz]")->check(CLI::Range(200.0, 1e5))->delimiter(',');
+  app.add_option("--rate", options.rates, "of the loop in the study of limits [Hz]")->check(feeler::bench::within(200.0, 1e5))->delimiter(',');
   app.add_option("--scene", options.scene, "cavity, steps, plate or terrain; all where none is given")
       ->check(CLI::IsMember({"cavity", "steps", "plate", "terrain"}));
   app.add_option("--grip", options.grip, "barely, soft, relaxed or firm; all where none is given")->check(CLI::IsMember(grip_names));

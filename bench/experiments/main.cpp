@@ -238,7 +238,7 @@ int main(int argc, char** argv) {
   app.add_option("--out", folder, "folder of the CSV files and figures");
   app.add_option("--experiment", experiment, "all, cavity, steps, local, fine or table")
       ->check(CLI::IsMember({"all", "cavity", "steps", "local", "fine", "table"}));
-  app.add_option("--seconds", seconds, "length of the motion over the steps; 0 for its own")->check(CLI::Range(0.0, 1000.0));
+  app.add_option("--seconds", seconds, "length of the motion over the steps; 0 for its own")->check(feeler::bench::within(0.0, 1000.0));
   app.add_flag("--no-figures", has_no_figures, "write CSV files only");
   return feeler::bench::run_with_options(app, argc, argv, [&] {
     fs::create_directories(folder);
