@@ -41,7 +41,7 @@ std::string outcome_of(const Case& one, const Finding& finding) {
   if (!finding.fault.empty()) return "FAILS: " + finding.fault;
   if (!finding.refusal.empty()) {
     const auto start = finding.refusal.find(": ") == std::string::npos ? 0 : finding.refusal.find(": ") + 2;
-    return "refused: " + finding.refusal.substr(start, finding.refusal.find_first_of(",;", start) - start);
+    return "refused: " + finding.refusal.substr(start, finding.refusal.find(';', start) - start);  // the reason; then comes advice
   }
   return finding.is_at_rest ? "at rest" : "free" + (one.remark.empty() ? "" : ": " + one.remark);
 }
