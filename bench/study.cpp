@@ -25,7 +25,7 @@ using namespace feeler::study;
 
 struct Options {
   Selection selection;
-  std::filesystem::path out = "build/study";
+  std::filesystem::path out = "out/study";
   double seconds = 0;  // of the motion; 0: 2, and 0.5 of a quick one
   unsigned seed = 1;
   int shard = 1, shards = 1;
@@ -49,11 +49,13 @@ class Progress {
   void say(int done, const std::string& key) {
     const double elapsed = std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
     const int left = done > 0 ? int(elapsed / done * (total_ - done)) : 0;
+    char text[60] = "";  // nothing is known before the first cell has ended
+    if (done > 0) std::snprintf(text, sizeof text, " %d:%02d left", left / 60, left % 60);
     if (is_screen_) {
-      std::fprintf(stderr, "\r\033[K[%d/%d] %d:%02d left  %.90s", done, total_, left / 60, left % 60, key.c_str());
+      std::fprintf(stderr, "\r\033[K[%d/%d]%s  %.90s", done, total_, text, key.c_str());
     } else if (total_ >= 100 && done * 20 / total_ != told_) {
       told_ = done * 20 / total_;
-      std::fprintf(stderr, "[%d/%d] %d:%02d left\n", done, total_, left / 60, left % 60);
+      std::fprintf(stderr, "[%d/%d]%s\n", done, total_, text);
     }
   }
   void end() const {
@@ -66,14 +68,14 @@ class Progress {
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };
 
-int list(const std::vector<Cell>& cells) {
+int list(const std::vector<Cell>& cells, const std::vector<int>& chosen) {
   std::printf("renderings:\n");
   for (const auto& rendering : renderings())
     std::printf("  %-16s %s, %s, %s\n", rendering.name.c_str(), rendering.scalar.c_str(), rendering.solver.c_str(), rendering.method.c_str());
   std::printf("sweeps:\n");
   for (const auto& sweep : sweeps()) std::printf("  %-16s %s\n", sweep.name.c_str(), sweep.question.c_str());
   std::printf("cells:\n");
-  for (std::size_t i = 0; i < cells.size(); ++i) std::printf("  %4zu %s\n", i, cells[i].key().c_str());
+  for (const int i : chosen) std::printf("  %4d %s\n", i, cells[std::size_t(i)].key().c_str());
   return 0;
 }
 
@@ -83,17 +85,15 @@ void draw(const std::filesystem::path& folder) {
 
 int study(const Options& options) {
   const auto cells = cells_of(options.selection);
-  if (options.is_listed) return list(cells);
+  const std::vector<int> groups = groups_of(cells);
+  std::vector<int> chosen;
+  for (int i = 0; i < int(cells.size()); ++i)
+    if (groups[std::size_t(i)] % options.shards == options.shard - 1) chosen.push_back(i);
+  if (options.is_listed) return list(cells, chosen);
   const double seconds = options.seconds > 0 ? options.seconds : options.selection.is_quick ? 0.5 : 2;
   Table table(options.out, cells, provenance(seconds, options.seed));
-  const std::vector<int> groups = groups_of(cells);
-  std::vector<int> todo;
-  int there = 0;
-  for (int i = 0; i < int(cells.size()); ++i) {
-    if (groups[std::size_t(i)] % options.shards != options.shard - 1) continue;
-    if (table.has(i)) ++there;
-    else todo.push_back(i);
-  }
+  std::vector<int> todo = chosen;
+  std::erase_if(todo, [&](int i) { return table.has(i); });
   TruthPaths paths(seconds);
   Progress progress(int(todo.size()));
   for (std::size_t i = 0; i < todo.size(); ++i) {
@@ -103,7 +103,7 @@ int study(const Options& options) {
   }
   progress.end();
   table.sort();
-  std::printf("%s: %zu cells measured, %d were there\n", (options.out / results_name).c_str(), todo.size(), there);
+  std::printf("%s: %zu cells measured, %zu were there\n", (options.out / results_name).c_str(), todo.size(), chosen.size() - todo.size());
   if (options.draws && options.shards == 1) draw(options.out);
   return 0;
 }
@@ -135,20 +135,21 @@ int main(int argc, char** argv) {
   app.add_option("--scene", options.selection.scenes, "scenes, by name; all where not given")->delimiter(',');
   app.add_option("--sweep", options.selection.sweeps, "what is varied, by name; everything where not given")->delimiter(',');
   app.add_option("--rendering", options.selection.renderings, "scalar, QP solver and contact method, by name; all where not given")->delimiter(',');
+  app.add_option("--only", options.selection.only, "values of margin, budget, iterations, rate, scale or offset, such as margin=1e-6,1e-5 rate=1000");
   app.add_flag("--quick", options.selection.is_quick, "few values, few scenes and half a second: under two minutes");
   app.add_flag("--list", options.is_listed, "name renderings, sweeps and the cells of the selection, and end");
   app.add_option("--out", options.out, "folder of study.csv, study_times.csv and the figures; what is there is gone on with");
-  app.add_option("--seconds", options.seconds, "length of the motion")->check(CLI::Range(0.1, 1000.0));
+  app.add_option("--seconds", options.seconds, "length of the motion")->check(feeler::bench::within(0.1, 1000.0));
   app.add_option("--seed", options.seed, "of how generated surfaces are cut");
   app.add_option("--shard", shard, "one part of several, such as 2/8: every eighth truth from the second on, and its cells");
   app.add_option("--merge", options.merged, "folders of shards to make one of, in --out; nothing is measured");
   app.add_flag("!--no-figures", options.draws, "draw nothing");
   app.add_flag("--figures", options.draws_only, "draw the figures of --out again, and measure nothing");
   app.add_flag("--tables", options.prints_tables, "print what --out holds as tables in Markdown, and measure nothing");
-  app.add_option("--prove", options.proofs, "test the truth itself on so many random cells, and measure nothing")->check(CLI::PositiveNumber);
+  app.add_option("--prove", options.proofs, "test the truth itself on so many random cells, and measure nothing")
+      ->check(feeler::bench::within(1, 1'000'000));
   return feeler::bench::run_with_options(app, argc, argv, [&] {
     if (app.count("--shard") > 0) read_shard(shard, options);
-    if (!(options.seconds >= 0)) throw std::invalid_argument("--seconds is not a number; give some, such as 2.");
     if (options.proofs > 0) return prove(options);
     if (!options.merged.empty()) merge({options.merged.begin(), options.merged.end()}, options.out);
     if (options.prints_tables) std::fputs(markdown_tables(options.out).c_str(), stdout);

@@ -16,9 +16,10 @@ const std::vector<Rendering>& renderings() { return registered(); }
 const Rendering& rendering(const std::string& name) {
   const auto& list = registered();
   const auto found = std::find_if(list.begin(), list.end(), [&](const Rendering& r) { return r.name == name; });
-  if (found == list.end())
-    throw std::invalid_argument("The rendering " + name + " is not compiled in; configure with -DFEELER_STUDY_RENDERINGS=all, or see --list.");
-  return *found;
+  if (found != list.end()) return *found;
+  std::string text = "There is no rendering " + name + "; there are:";
+  for (const Rendering& known : list) text += " " + known.name;
+  throw std::invalid_argument(text + ". CMake builds others in with -DFEELER_STUDY_RENDERINGS=all.");
 }
 
 Registration::Registration(Rendering rendering) {

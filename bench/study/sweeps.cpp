@@ -1,11 +1,14 @@
 #include "study/sweeps.hpp"
 
 #include <algorithm>
+#include <cstdlib>
 #include <initializer_list>
 #include <map>
 #include <set>
+#include <sstream>
 #include <stdexcept>
 #include <tuple>
+#include <utility>
 
 #include "study/player.hpp"
 #include "study/scenes.hpp"
@@ -26,6 +29,46 @@ void check_names(const char* what, const std::vector<std::string>& asked, const 
   }
 }
 
+/// What is a number of a cell, by its name in the key.
+std::map<std::string, double> numbers_of(const Cell& cell) {
+  return {{"margin", cell.margin},     {"budget", double(cell.budget)}, {"iterations", double(cell.iterations)},
+          {"rate", double(cell.rate)}, {"scale", cell.scale},           {"offset", cell.offset}};
+}
+
+/// Values that are asked for, by name.
+using Values = std::map<std::string, std::set<double>>;
+
+/// Adds "margin=1e-6,1e-5".
+void read_only(const std::string& text, Values& only) {
+  const auto equals = std::min(text.find('='), text.size());
+  const std::string name = text.substr(0, equals);
+  std::set<double> values;
+  std::stringstream list(text.substr(std::min(equals + 1, text.size())));
+  bool is_list = numbers_of({}).contains(name);
+  for (std::string value; std::getline(list, value, ',');) {
+    char* end = nullptr;
+    values.insert(std::strtod(value.c_str(), &end));
+    is_list = is_list && !value.empty() && *end == '\0';
+  }
+  if (is_list && !values.empty()) return only[name].merge(values);
+  std::string names;
+  for (const auto& [known, value] : numbers_of({})) names += " " + known;
+  throw std::invalid_argument("--only is " + text + "; give values of one of these, such as margin=1e-6,1e-5:" + names + ".");
+}
+
+void check_cells(const std::vector<Cell>& cells, const Values& only) {
+  if (cells.empty()) throw std::invalid_argument("These filters leave no cell; --list shows what there is.");
+  Values left;
+  for (const Cell& cell : cells)
+    for (const auto& [name, value] : numbers_of(cell)) left[name].insert(value);
+  for (const auto& [name, values] : only)
+    for (const double value : values)
+      if (std::ostringstream text; !left[name].contains(value)) {
+        text << "These filters leave no cell with the " << name << " " << value << "; --list shows what there is.";
+        throw std::invalid_argument(text.str());
+      }
+}
+
 template <class Value>
 std::vector<Value> some(bool is_quick, std::initializer_list<Value> all, std::initializer_list<Value> few) {
   return is_quick ? few : all;
@@ -33,6 +76,18 @@ std::vector<Value> some(bool is_quick, std::initializer_list<Value> all, std::in
 
 /// Scenes that are moved away and scaled: one of each kind.
 const std::vector<std::string> small_scenes{"bore_24", "plate_2", "wedge_4"};
+
+/// @return the values that are asked for
+Values read(const Selection& selection) {
+  std::vector<std::string> known_sweeps;
+  for (const auto& sweep : sweeps()) known_sweeps.push_back(sweep.name);
+  check_names("sweep", selection.sweeps, known_sweeps);
+  check_names("scene", selection.scenes, scene_names());
+  for (const auto& name : selection.renderings) rendering(name);
+  Values only;
+  for (const auto& text : selection.only) read_only(text, only);
+  return only;
+}
 
 }  // namespace
 
@@ -51,12 +106,9 @@ const std::vector<Sweep>& sweeps() {
 }
 
 std::vector<Cell> cells_of(const Selection& selection) {
-  std::vector<std::string> known_sweeps, known_renderings;
-  for (const auto& sweep : sweeps()) known_sweeps.push_back(sweep.name);
+  const Values only = read(selection);
+  std::vector<std::string> known_renderings;
   for (const auto& rendering : renderings()) known_renderings.push_back(rendering.name);
-  check_names("sweep", selection.sweeps, known_sweeps);
-  check_names("scene", selection.scenes, scene_names());
-  check_names("rendering", selection.renderings, known_renderings);
 
   const bool quick = selection.is_quick;
   const std::vector<std::string> quick_scenes{"cavity_1mm", "spline_20um", "sulcus", "terrain_968", "bore_24", "wedge_4"};
@@ -67,6 +119,8 @@ std::vector<Cell> cells_of(const Selection& selection) {
     if (quick && selection.scenes.empty() && !is_among(quick_scenes, cell.scene) && !is_among(small_scenes, cell.scene)) return;
     if (cell.rendering != "double" && has_several_pieces(cell.scene)) return;
     if (!is_among(known_renderings, cell.rendering)) return;
+    for (const auto& [name, values] : only)
+      if (!values.contains(numbers_of(cell).at(name))) return;
     if (known.insert(cell.key()).second) cells.push_back(cell);
   };
   const auto vary = [&](const std::vector<std::string>& scenes, const auto& values, const auto& change) {
@@ -108,7 +162,7 @@ std::vector<Cell> cells_of(const Selection& selection) {
           for (const int budget : {32, 64, 128, 256})
             for (const int iterations : {2, 4, 12}) add({.scene = scene, .margin = margin, .budget = budget, .iterations = iterations});
   }
-  if (cells.empty()) throw std::invalid_argument("These filters leave no cell; --list shows what there is.");
+  check_cells(cells, only);
   return cells;
 }
 

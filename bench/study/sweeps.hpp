@@ -17,11 +17,12 @@ const std::vector<Sweep>& sweeps();
 /// What is asked for; empty lists ask for all.
 struct Selection {
   std::vector<std::string> scenes, sweeps, renderings;
+  std::vector<std::string> only;  ///< values of what is a number, such as "margin=1e-6,1e-5"
   bool is_quick = false;  ///< few values and few scenes
 };
 
 /// The cells of a selection, each once, in the order of the tables.
-/// @throws std::invalid_argument  for a name that there is not
+/// @throws std::invalid_argument  for a name or a value that there is not
 std::vector<Cell> cells_of(const Selection& selection);
 
 /// A number a cell, the same for those of one scene, size, place and margin: they share their truth, which takes as long as all else, and so a shard.

@@ -20,7 +20,7 @@ refuses() {
   code=0
   "$study" "$@" >/dev/null 2>said || code=$?
   [ $code = 2 ] || fail "exit code $code, not 2: $*"
-  grep -q "$words" said || fail "'$words' is not in: $(cat said)"
+  grep -q -e "$words" said || fail "'$words' is not in: $(cat said)"
 }
 
 # shellcheck disable=SC2086
@@ -41,9 +41,9 @@ refuses() {
   for i in 1 2 3; do "$study" $choose --shard $i/3 --out part$i; done
   "$study" --merge part1 part2 part3 --out merged --no-figures
   cmp whole/study.csv merged/study.csv
-  # Many machines: a task of a cluster each, or GNU parallel.
+  # Many machines: a task of a cluster each, or GNU parallel. A task that is submitted alone is the shard that it was.
   for i in 1 2 3; do
-    FEELER_STUDY=$study FEELER_STUDY_OUT=cluster SLURM_ARRAY_TASK_ID=$i SLURM_ARRAY_TASK_COUNT=3 bash "$here/../../bench/study/study.slurm" $choose
+    FEELER_STUDY=$study FEELER_STUDY_OUT=cluster FEELER_STUDY_SHARDS=3 SLURM_ARRAY_TASK_ID=$i SLURM_ARRAY_TASK_COUNT=1 bash "$here/../../bench/study/study.slurm" $choose
   done
   "$study" --merge cluster/part* --out merged --no-figures
   cmp whole/study.csv merged/study.csv
@@ -96,4 +96,20 @@ refuses 'such as 2/8' --shard 9/8
 refuses 'such as 2/8' --shard some
 refuses 'such as 2/8' --shard ''
 refuses 'There is no scene' --prove 3 --scene nosuch
+refuses 'There is no rendering fast.*FEELER_STUDY_RENDERINGS' --rendering fast
+refuses '0 is not a number from 1 to 1000000' --prove 0
+refuses 'nan is not a number from 0.1 to 1000' --seconds nan
+refuses '--only is colour=1; give.*such as margin=1e-6' --only colour=1
+refuses '--only is margin=wide' --only margin=wide
+refuses '--only is rate;' --only rate
+refuses 'leave no cell with the rate 3000' --only rate=1000,3000
 "$study" --list | grep -q 'what does the margin cost' || fail "--list names the sweeps"
+list() { "$study" --list --rendering double "$@" | sed '1,/^cells/d'; }
+[ "$(list --only margin=1e-7,1e-6 rate=1000 --sweep margin --scene wedge_4 | wc -l)" = 2 ] || fail "--only was to leave two cells"
+[ "$(list --only rate=4000 | wc -l)" = "$(list --sweep rate | grep -c rate=4000)" ] || fail "--only was to leave the cells of one rate"
+list >all
+for i in 1 2 3; do list --shard $i/3; done | sort -n | cmp - all || fail "--list was to name the cells of a shard"
+[ "$(wc -l <all)" -gt "$(list --shard 1/3 | wc -l)" ] || fail "a shard has fewer cells"
+# What is left is not known before a cell has ended.
+timeout 2 "$study" --sweep front --no-figures --out progress 2>said || true
+grep -q '^\[0/[0-9]*\]$' said || fail "no time is left at the start: $(head -n 1 said)"
