@@ -79,8 +79,11 @@ int list(const std::vector<Cell>& cells, const std::vector<int>& chosen) {
   return 0;
 }
 
-void draw(const std::filesystem::path& folder) {
-  if (!draw_figures(folder)) std::fprintf(stderr, "gnuplot is missing or failed; the figures are not drawn\n");
+/// @return the number of figures
+std::size_t draw(const std::filesystem::path& folder) {
+  const auto names = draw_figures(folder);
+  for (const auto& name : names) std::printf("%s\n", (folder / (name + ".svg")).c_str());
+  return names.size();
 }
 
 int study(const Options& options) {
@@ -103,7 +106,7 @@ int study(const Options& options) {
   }
   progress.end();
   table.sort();
-  std::printf("%s: %zu cells measured, %zu were there\n", (options.out / results_name).c_str(), todo.size(), chosen.size() - todo.size());
+  std::printf("%s: %zu cells measured, %zu were there\n", (options.out / results_file.name).c_str(), todo.size(), chosen.size() - todo.size());
   if (options.draws && options.shards == 1) draw(options.out);
   return 0;
 }
@@ -154,7 +157,9 @@ int main(int argc, char** argv) {
     if (!options.merged.empty()) merge({options.merged.begin(), options.merged.end()}, options.out);
     if (options.prints_tables) std::fputs(markdown_tables(options.out).c_str(), stdout);
     if (options.prints_tables || options.draws_only || !options.merged.empty()) {
-      if (options.draws_only || (options.draws && !options.prints_tables)) draw(options.out);
+      const bool draws = options.draws_only || (options.draws && !options.prints_tables);
+      if (draws && draw(options.out) == 0 && options.draws_only)
+        throw std::runtime_error("the rows of " + (options.out / results_file.name).string() + " do not vary what a figure shows");
       return 0;
     }
     return study(options);

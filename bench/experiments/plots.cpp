@@ -1,6 +1,10 @@
 // Scripts for gnuplot, in the style of the demo's figures.
 #include "experiments/plots.hpp"
 
+#include <fstream>
+#include <sstream>
+#include <utility>
+
 #include "program.hpp"
 #include "text_file.hpp"
 
@@ -27,18 +31,39 @@ std::string three(const std::string& csv, const std::string& symbol, int first_c
   return text + "\n";
 }
 
+/// What is drawn has this at the end of its name until it is whole.
+constexpr const char* fresh = ".new";
+
+/// Empty lines aside; gnuplot ends with 0 on a full disk too.
+bool ends_in(const std::filesystem::path& file, const std::string& end) {
+  std::ifstream in(file, std::ios::binary);
+  std::stringstream text;
+  text << in.rdbuf();
+  const std::string all = text.str();
+  return all.substr(0, all.find_last_not_of('\n') + 1).ends_with(end);
+}
+
 }  // namespace
 
 bool draw(const std::filesystem::path& folder, const std::string& name, int width, int height, const std::string& body) {
   const std::string size = std::to_string(width) + "," + std::to_string(height);
-  demo::TextFile script(folder / (name + ".gp"));
-  script.write("# gnuplot " + name + ".gp draws this figure again from the files of this folder.\n");
-  script.write("set terminal svg size " + size + " enhanced font 'sans-serif,13' background rgb 'white'\nset output '" + name + ".svg'\n" + style +
-               body + "unset output\nreset\n");
-  script.write("set terminal pngcairo size " + size + " enhanced font 'DejaVu Sans,11'\nset output '" + name + ".png'\n" + style + body +
+  const std::string script_name = name + ".gp" + fresh;
+  demo::TextFile script(folder / script_name);
+  script.write("# gnuplot " + name + ".gp draws this figure again from the files of this folder.\nif (!exists('fresh')) fresh = ''\n");
+  script.write("set terminal svg size " + size + " enhanced font 'sans-serif,13' background rgb 'white'\nset output '" + name + ".svg'.fresh\n" +
+               style + body + "unset output\nreset\n");
+  script.write("set terminal pngcairo size " + size + " enhanced font 'DejaVu Sans,11'\nset output '" + name + ".png'.fresh\n" + style + body +
                "unset output\n");
   script.close();
-  return demo::run_program(folder, {"gnuplot", name + ".gp"}) == 0;
+  if (demo::run_program(folder, {"gnuplot", "-e", std::string("fresh = '") + fresh + "'", script_name}) != 0) return false;
+  for (const auto& [ending, end_of_file] : {std::pair(".svg", "</svg>"), std::pair(".png", "IEND\xae\x42\x60\x82")})
+    if (!ends_in(folder / (name + ending + fresh), end_of_file)) return false;
+  for (const char* ending : {".gp", ".svg", ".png"}) {
+    std::error_code problem;
+    std::filesystem::rename(folder / (name + ending + fresh), folder / (name + ending), problem);
+    if (problem) return false;
+  }
+  return true;
 }
 
 std::string wrench_body(const std::string& csv, const std::string& state_tics) {

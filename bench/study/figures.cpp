@@ -2,9 +2,11 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdio>
 #include <map>
 #include <set>
+#include <stdexcept>
 #include <string>
 #include <utility>
 #include <vector>
@@ -16,6 +18,28 @@ namespace feeler::study {
 namespace {
 
 namespace fs = std::filesystem;
+
+struct Figure {
+  std::string name;
+  int width = 0, height = 0;
+  std::string body;  ///< empty where the rows do not suffice
+};
+
+/// At the head of a figure: of how many samples an error is, and how many cells are left out.
+std::string note_of(const std::vector<Row>& rows) {
+  double samples = 0;
+  int refused = 0, without_truth = 0;
+  for (const Row& row : rows) {
+    samples = std::max(samples, number(row, "samples"));
+    refused += is_refused(row);
+    without_truth += !is_refused(row) && !is_measured(row);
+  }
+  char text[200];
+  std::snprintf(text, sizeof text,
+                "set label 99 'errors of %.0f samples a cell at most; cells not drawn: refused %d, no truth %d' at screen 0.01, 0.98 font ',9'\n",
+                samples, refused, without_truth);
+  return text;
+}
 
 std::string scene_family(const std::string& scene) { return scene.substr(0, scene.find('_')); }
 std::string legible(std::string name) {
@@ -67,7 +91,7 @@ std::string panel(const std::vector<Row>& rows, const Choice& choice, int panel_
   return data + "set xlabel '" + choice.label + "'\n" + standard + plot + "\n";
 }
 
-bool draw_sweeps(const fs::path& folder, const std::vector<Row>& rows) {
+Figure sweeps_of(const std::vector<Row>& rows) {
   std::string body =
       "set logscale xy; set yrange [1e-9:1e-2]; set format y '10^{%L}'; set ylabel 'error, p99  [m]'\nset multiplot layout 2,2 margins 0.09,0.97,0.09,0.88 spacing 0.1,0.13\n"
       "set key at screen 0.97, 0.99 horizontal maxrows 3\n";
@@ -78,24 +102,27 @@ bool draw_sweeps(const fs::path& folder, const std::vector<Row>& rows) {
     body += std::string(std::string(choices[i].column) == "margin_m" ? "set format x '10^{%L}'\n" : "set format x '%g'\n") + one;
     ++count;
   }
-  return count == 0 || experiments::draw(folder, "study_choices", 1000, 720, body + "unset multiplot\n");
+  return {"study_choices", 1000, 720, count > 0 ? body : ""};
 }
 
-bool draw_fronts(const fs::path& folder, const std::vector<Row>& rows, const std::vector<Row>& times) {
+Figure fronts_of(const std::vector<Row>& rows, const std::vector<Row>& times) {
   std::map<std::string, std::vector<std::pair<double, double>>> by_scene, standard;
   for (const Row& row : rows) {
     if (!is_measured(row) || text(row, "rendering") != "double" || number(row, "scale") != 1 || number(row, "offset_m") != 0 ||
         number(row, "rate_hz") != Cell().rate)
       continue;
-    const std::pair point(std::max(number(times_of(row, times), "time_p99_us"), 0.1), std::max(number(row, "error_p99_m"), 1e-9));
+    const double time = number(times_of(row, times), "time_p99_us");
+    if (std::isnan(time)) continue;  // no tick was in contact
+    const std::pair point(std::max(time, 0.1), std::max(number(row, "error_p99_m"), 1e-9));
     by_scene[text(row, "scene")].push_back(point);
     if (is_standard_but_for(row, "")) standard[text(row, "scene")] = {point};
   }
   std::erase_if(by_scene, [](const auto& scene) { return scene.second.size() < 6; });
-  if (by_scene.empty()) return true;
-  const int columns = 4, lines = (int(by_scene.size()) + columns - 1) / columns;
+  if (by_scene.empty()) return {};
+  const int columns = 4, lines = (int(by_scene.size()) + columns - 1) / columns, height = 200 * lines + 80;
   std::string body = "set logscale xy; set format y '10^{%L}'; set xrange [1:1000]; set yrange [1e-8:1e-2]; unset key\nset multiplot layout " +
-                     std::to_string(lines) + "," + std::to_string(columns) + " margins 0.06,0.98,0.08,0.95 spacing 0.045,0.08\n";
+                     std::to_string(lines) + "," + std::to_string(columns) + " margins 0.06,0.98," + std::to_string(60.0 / height) + "," +
+                     std::to_string(1 - 45.0 / height) + " spacing 0.045,0.08\n";
   int count = 0;
   for (auto& [scene, points] : by_scene) {
     std::sort(points.begin(), points.end());
@@ -110,10 +137,10 @@ bool draw_fronts(const fs::path& folder, const std::vector<Row>& rows, const std
             "_standard using 1:2 with points pt 7 ps 0.9 lc rgb red\n";
     ++count;
   }
-  return experiments::draw(folder, "study_fronts", 1200, 200 * lines + 80, body + "unset multiplot\n");
+  return {"study_fronts", 1200, height, body};
 }
 
-bool draw_scalars(const fs::path& folder, const std::vector<Row>& rows) {
+Figure scalars_of(const std::vector<Row>& rows) {
   std::string body =
       "set logscale xy; set format '10^{%L}'; set yrange [1e-16:1e0]\nset multiplot layout 1,2 margins 0.09,0.97,0.15,0.84 spacing 0.1\nset key at screen 0.97, 0.99 horizontal maxrows 2\n";
   int count = 0;
@@ -141,15 +168,24 @@ bool draw_scalars(const fs::path& folder, const std::vector<Row>& rows) {
             plot + "\n";
     ++count;
   }
-  return count == 0 || experiments::draw(folder, "study_scalars", 1000, 420, body + "unset multiplot\n");
+  return {"study_scalars", 1000, 420, count > 0 ? body : ""};
 }
 
 }  // namespace
 
-bool draw_figures(const fs::path& folder) {
-  const auto rows = read_rows(folder / results_name), times = read_rows(folder / times_name);
-  const bool are_choices_drawn = draw_sweeps(folder, rows), are_fronts_drawn = draw_fronts(folder, rows, times);
-  return draw_scalars(folder, rows) && are_choices_drawn && are_fronts_drawn;
+std::vector<std::string> draw_figures(const fs::path& folder) {
+  const auto [rows, times] = read_rows(folder);
+  std::vector<std::string> drawn;
+  for (const Figure& figure : {sweeps_of(rows), fronts_of(rows, times), scalars_of(rows)}) {
+    if (figure.body.empty()) continue;
+    std::string body = note_of(rows) + figure.body + "unset multiplot\n";
+    body.insert(body.find('\n', body.find("plot $")) + 1, "unset label 99\n");  // with the first panel only
+    if (!experiments::draw(folder, figure.name, figure.width, figure.height, body))
+      throw std::runtime_error("The figure " + (folder / figure.name).string() +
+                               " cannot be drawn; install gnuplot-nox, or make room, and draw it with --figures; --no-figures draws none.");
+    drawn.push_back(figure.name);
+  }
+  return drawn;
 }
 
 }  // namespace feeler::study

@@ -2,11 +2,14 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
+#include <vector>
 
 namespace feeler::study {
 
 /// Draws what the rows of a folder suffice for, as SVG and PNG beside them: errors against what is chosen, the fronts of error and time, and where each scalar ends.
-/// @return false where gnuplot is missing or fails
-bool draw_figures(const std::filesystem::path& folder);
+/// @return their names
+/// @throws std::runtime_error  where one cannot be drawn: what was there before is there still
+std::vector<std::string> draw_figures(const std::filesystem::path& folder);
 
 }  // namespace feeler::study

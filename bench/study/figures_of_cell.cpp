@@ -88,6 +88,7 @@ CellFigures figures_of(const Cell& cell, double seconds, unsigned seed, TruthPat
     return next < all.samples.size() && all.samples[next].time < time + 1e-9 ? &all.samples[next] : nullptr;
   };
   std::size_t next = 0, next_own = 0;
+  figures.deepest = 0;
   int converged = 0, unconverged_run = 0, longest_run = 0;
   Vector3<Wide> last_force = Vector3<Wide>::Zero(), last_change = Vector3<Wide>::Zero();
   const int ticks = int(std::lround(seconds * cell.rate));
@@ -103,7 +104,7 @@ CellFigures figures_of(const Cell& cell, double seconds, unsigned seed, TruthPat
     last_force = reading.force, last_change = change;
     if (reading.force.norm() > 0) {
       work.push_back(reading.work);
-      operations.push_back(double(reading.operations));
+      if (reading.operations > 0) operations.push_back(double(reading.operations));
       times.push_back(reading.microseconds);
     }
     if (k % (cell.rate / TruthPath::samples_a_second) == 0)
@@ -123,9 +124,12 @@ CellFigures figures_of(const Cell& cell, double seconds, unsigned seed, TruthPat
     }
   }
   const auto share_within = [&](double most) {
-    return errors.empty() ? 0 : double(std::count_if(errors.begin(), errors.end(), [most](double e) { return e <= most; })) / double(errors.size());
+    return errors.empty() ? CellFigures::none
+                          : double(std::count_if(errors.begin(), errors.end(), [most](double e) { return e <= most; })) / double(errors.size());
   };
-  using bench::quantile;
+  const auto quantile = [](const std::vector<double>& values, double share) {
+    return values.empty() ? CellFigures::none : bench::quantile(values, share);
+  };
   figures.samples = int(errors.size());
   figures.samples_without_truth = path->missing;
   figures.converged = double(converged) / std::max(ticks, 1);

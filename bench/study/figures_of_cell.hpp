@@ -1,6 +1,7 @@
 // What one cell of the study gave.
 #pragma once
 
+#include <limits>
 #include <map>
 #include <memory>
 #include <string>
@@ -38,24 +39,26 @@ class TruthPaths {
   std::map<std::tuple<std::string, double, double, double, double>, TruthPath> made_;  // by scene, scale, offset, margin, distance
 };
 
-/// Errors are those of the samples, from the rigid problem, and so the margin is one of them; shares are of one.
+/// Errors are those of the samples, from the rigid problem, and so the margin is one of them; shares are of one. NaN is what was not measured.
 struct CellFigures {
+  static constexpr double none = std::numeric_limits<double>::quiet_NaN();
+
   std::string refusal;  ///< the sentence, where the renderer refuses the cell; then nothing else counts
   int samples = 0, samples_without_truth = 0;
-  double converged = 0;                                 ///< share of all ticks
-  double error_median = 0, error_99 = 0, error_most = 0;  ///< a point of the tool is off by at most [m]
-  int solver_samples = 0;                                 ///< for which there is a proved minimum at the cell's own margin
-  double solver_error_median = 0, solver_error_99 = 0;    ///< the distance from that [m]
-  double within_tenth_micrometre = 0, within_micrometre = 0;
-  double deepest = 0;                          ///< penetration of the samples, by the checker that shares no code with the library [m]
-  double separation = 0;                       ///< median of the contacts [m]
-  double force_error_median = 0, force_error_99 = 0;  ///< [N]
-  double force_jnd_99 = 0, torque_jnd_99 = 0;  ///< in just-noticeable differences
-  double jitter_99 = 0;                        ///< second difference of the force from tick to tick [N]
-  double lag = 0;                              ///< longest time without a converged tick [s]
-  double work_median = 0, work_99 = 0, work_most = 0;
-  double operations_median = 0, operations_99 = 0;  ///< on numbers, of ticks in contact; 0 where the scalar does not count them
-  double time_median = 0, time_99 = 0, time_999 = 0, time_most = 0;  ///< of ticks in contact, processor time [µs]
+  double converged = none;                                         ///< share of all ticks
+  double error_median = none, error_99 = none, error_most = none;  ///< a point of the tool is off by at most [m]
+  int solver_samples = 0;                                          ///< for which there is a proved minimum at the cell's own margin
+  double solver_error_median = none, solver_error_99 = none;       ///< the distance from that [m]
+  double within_tenth_micrometre = none, within_micrometre = none;
+  double deepest = none;                                   ///< penetration of the samples, by the checker that shares no code with the library [m]
+  double separation = none;                                ///< median of the contacts [m]
+  double force_error_median = none, force_error_99 = none; ///< [N]
+  double force_jnd_99 = none, torque_jnd_99 = none;        ///< in just-noticeable differences
+  double jitter_99 = none;                                 ///< second difference of the force from tick to tick [N]
+  double lag = none;                                       ///< longest time without a converged tick [s]
+  double work_median = none, work_99 = none, work_most = none;   ///< of ticks in contact
+  double operations_median = none, operations_99 = none;         ///< on numbers, of ticks in contact, where the scalar counts them
+  double time_median = none, time_99 = none, time_999 = none, time_most = none;  ///< of ticks in contact, processor time [µs]
 };
 
 /// @param seconds  of the motion

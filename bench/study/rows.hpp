@@ -3,20 +3,25 @@
 
 #include <algorithm>
 #include <array>
+#include <cstdlib>
+#include <limits>
 #include <string>
 #include <vector>
 
 #include "study/cell.hpp"
-#include "study/table.hpp"
+#include "study/row_file.hpp"
 
 namespace feeler::study {
 
+/// NaN where it was not measured.
 inline double number(const Row& row, const char* name) {
   const auto found = row.find(name);
-  return found == row.end() || found->second.empty() ? 0 : std::stod(found->second);
+  return found == row.end() || found->second.empty() ? std::numeric_limits<double>::quiet_NaN() : std::strtod(found->second.c_str(), nullptr);
 }
 inline const std::string& text(const Row& row, const char* name) { return row.at(name); }
-inline bool is_measured(const Row& row) { return text(row, "refused").empty() && number(row, "samples") > 0; }
+inline bool is_refused(const Row& row) { return !text(row, "refused").empty(); }
+/// Whether it was rendered and there is a truth to compare it with.
+inline bool is_measured(const Row& row) { return !is_refused(row) && number(row, "samples") > 0; }
 
 /// What is chosen, by the columns of the file, with what is chosen by default.
 struct Choice {

@@ -2,11 +2,11 @@
 #pragma once
 
 #include <filesystem>
-#include <map>
 #include <string>
 #include <vector>
 
 #include "study/figures_of_cell.hpp"
+#include "study/row_file.hpp"
 
 namespace feeler::study {
 
@@ -17,9 +17,6 @@ struct Provenance {
   unsigned seed = 1;
 };
 Provenance provenance(double seconds, unsigned seed);
-
-inline constexpr const char* results_name = "study.csv";
-inline constexpr const char* times_name = "study_times.csv";
 
 /// Nobody else works in a folder as long as this is there.
 class FolderLock {
@@ -38,8 +35,8 @@ class FolderLock {
 /// from them.
 class Table {
  public:
-  /// Opens the files of a folder, makes them where they are not, and keeps the rows of these cells. A row that was cut short is dropped.
-  /// @throws std::runtime_error  where they cannot be read or written, or hold rows of another program, motion or selection
+  /// Opens the files of a folder, makes them where they are not, and keeps their rows. A row that was cut short is dropped.
+  /// @throws std::runtime_error  where they cannot be read or written, or hold rows of another study
   Table(const std::filesystem::path& folder, const std::vector<Cell>& cells, const Provenance& provenance);
 
   bool has(int number) const { return results_.contains(number) && times_.contains(number); }
@@ -51,19 +48,13 @@ class Table {
  private:
   FolderLock lock_;
   std::filesystem::path folder_;
-  std::string tail_;  // columns that are the same in each row
-  std::map<int, std::string> results_;  // rows by number
-  std::map<int, std::string> times_;
+  std::string results_tail_, times_tail_;  // columns that are the same in each row
+  Lines results_, times_;
 };
 
 /// The files of several folders as one.
 /// @throws std::runtime_error  where a file is missing or cut short, a row is in two with other figures or in none, the folders are not of one study, or `into` holds
 ///                             another
 void merge(const std::vector<std::filesystem::path>& from, const std::filesystem::path& into);
-
-/// A row as names and values.
-using Row = std::map<std::string, std::string>;
-/// @throws std::runtime_error  where the file cannot be read
-std::vector<Row> read_rows(const std::filesystem::path& file);
 
 }  // namespace feeler::study

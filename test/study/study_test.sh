@@ -58,8 +58,16 @@ refuses() {
   rm part2/study.csv
   refuses 'is not there' --merge part1 part2 part3 --out merged
   refuses 'is in none of the folders' --merge part1 part3 --out none
+  refuses 'study_times.csv holds rows of another study' $choose --seed 2 --shard 2/3 --out part2
+  rm part2/study_times.csv
   "$study" $choose --seed 2 --shard 2/3 --out part2
-  refuses 'not of one study: seed' --merge part1 part2 part3 --out none
+  refuses 'not of one study: seed is 2 and not 1 in part2/study.csv' --merge part1 part2 part3 --out none
+  # As many cells, but others: of another sweep, and of other values of the same one.
+  "$study" --quick --scene cavity_1mm,wedge_4 --sweep rate,budget --seconds 0.2 --no-figures --shard 2/3 --out other_cells
+  [ "$(cut -d, -f39 part1/study.csv | tail -n 1)" = "$(cut -d, -f39 other_cells/study.csv | tail -n 1)" ] || fail "as many cells were to be in both"
+  refuses 'not of one study: the cells, motion or build are others (--scene' --merge part1 other_cells part3 --out none
+  cp part3/study.csv other_cells
+  refuses 'not of one study.* in other_cells/study_times.csv' --merge part1 part3 other_cells --out none
   "$study" $choose --seed 2 --out other
   refuses 'holds another study' --merge other --out merged
 
@@ -73,11 +81,39 @@ refuses() {
   cmp whole/study.csv killed/study.csv
 
   cp other/study_times.csv part1/study_times.csv
-  sed -i 's/wedge_4/plate_2/' part1/study_times.csv
-  refuses 'times of another selection' $choose --shard 1/3 --out part1
+  refuses 'study_times.csv holds rows of another study' $choose --shard 1/3 --out part1
 
-  refuses 'another build, machine, motion or selection' $choose --seed 2 --out whole
+  refuses 'another study: seed is 1 and not 2' $choose --seed 2 --out whole
+  refuses 'another study: the cells' --quick --scene cavity_1mm,wedge_4 --sweep rate,budget --seconds 0.2 --no-figures --out whole
   refuses 'cannot be made' $choose --out /dev/null/study
+
+  # Text where a number belongs.
+  mkdir odd
+  awk -F, -v OFS=, 'NR == 4 { $17 = "much" } { print }' whole/study.csv >odd/study.csv
+  cp whole/study_times.csv odd
+  for what in '--tables' '--figures' "$choose"; do
+    refuses "odd/study.csv has in line 4, column error_p99_m, 'much' where" $what --out odd
+  done
+  refuses "odd/study.csv has in line 4, column error_p99_m, 'much' where" --merge odd --out merged
+  sed '4s/^[0-9]*/one/' whole/study.csv >odd/study.csv
+  refuses "line 4, column cell, 'one'" --merge odd --out merged
+
+  # Tables, and figures that are whole or not there.
+  "$study" --tables --out whole | grep -q 'samples of each' || fail "--tables prints tables"
+  if command -v gnuplot >/dev/null; then
+    "$study" --figures --out whole
+    grep -q '</svg>' whole/study_choices.svg || fail "the figure was to be whole"
+    echo old >whole/study_choices.svg
+    code=0
+    (ulimit -f 32 && "$study" --figures --out whole) >/dev/null 2>said || code=$?
+    [ $code = 2 ] || fail "a figure that does not fit on the disk was to be refused, not $code"
+    grep -q 'cannot be drawn\|cannot be written' said || fail "what cannot be drawn is not in: $(cat said)"
+    [ "$(cat whole/study_choices.svg)" = old ] || fail "the figure that was there was to stay"
+  fi
+  code=0
+  env PATH=/nowhere "$study" --figures --out whole 2>said || code=$?
+  [ $code = 2 ] || fail "exit code $code, not 2, without gnuplot"
+  grep -q 'install gnuplot' said || fail "gnuplot is not in: $(cat said)"
 
   # A disk that is full, to the program: files of no more than 2 kB.
   (
@@ -87,7 +123,21 @@ refuses() {
   "$study" $choose --out full | grep -q ', 0 were there' && fail "rows were lost"
   cmp whole/study.csv full/study.csv
 }
+# A cell that is rendered and has no truth: no free pose keeps a margin that is wider than the fit.
+for what in --shard=1/1 --tables; do
+  "$study" $what --scene bore_24 --sweep scale --rendering double --only scale=0.01,1 --seconds 0.1 --out without_truth --no-figures >said
+done
+grep -q '^| 0.01 | 0.0 / 0.0 | – .* 1, no truth 1 | 0 to 0 |$' said || fail "no truth was to be told in: $(cat said)"
+[ "$(sed -n 2p without_truth/study.csv | cut -d, -f13-17,19)" = 0,5,0,,,0 ] || fail "errors that were not measured were to be left empty"
+
+refuses 'holds no rows' --tables --out empty
+mkdir empty
+refuses 'holds no rows' --tables --out empty
+mkdir empty/study.csv
+refuses 'is not a file of rows' --tables --out empty
+refuses 'is not a file of rows' --figures --out empty
 printf 'colour,shape\nred,round\n' >whole/study.csv
+refuses 'names other columns' --tables --out whole
 refuses 'names other columns' --sweep margin --scene wedge_4 --out whole
 refuses 'There is no scene cavern' --scene cavern
 refuses 'There is no sweep colour' --sweep colour
