@@ -12,6 +12,7 @@
 #include "bad_input.hpp"
 #include "feeler/viewer/page.hpp"
 #include "feeler/viewer/page_message.hpp"
+#include "feeler/viewer/request_gate.hpp"
 #include "feeler/viewer/server.hpp"
 #include "feeler/viewer/wire.hpp"
 #include "live/interrupt.hpp"
@@ -50,8 +51,8 @@ class Watcher {
       page.send_binary(shown_.mesh);
     };
     settings.on_text = [this](std::string_view text) { return answer(text); };
-    settings.on_file = [this](std::string name, std::string bytes) {
-      return wishes_.add(SentFile{std::move(name), std::move(bytes)}) ? "" : "Another file is being read: open this one again.";
+    settings.on_file = [this](std::string_view target, std::string bytes) {
+      return wishes_.add(SentFile{viewer::query_text(target, "name"), std::move(bytes)}) ? "" : "Another file is being read: open this one again.";
     };
     settings.on_frame = [this] { return frame(); };
     return settings;
