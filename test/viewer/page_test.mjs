@@ -458,6 +458,15 @@ await run('a_lost_connection_is_told_and_comes_back', async () => {
   complaints.length = 0;  // the browser notes each attempt
 });
 
+await run('an_address_is_printed_that_another_room_can_open', async () => {
+  const server = await startDemo('--scene', 'cavity', '--port', '0', '--listen', '0.0.0.0');
+  assert.doesNotMatch(server.url, /0\.0\.0\.0/);
+  assert.match(server.url, /\?token=\w{32}$/);
+  assert.equal((await fetch(server.url)).status, 200);
+  assert.equal((await fetch(server.url.split('?')[0])).status, 403);
+  await server.stop();
+});
+
 await run('a_real_device_is_the_hand_and_the_page_only_looks', async () => {
   const library = join(standIns, 'libforce_dimension_stand_in.so');
   if (!existsSync(library)) return console.log(`skipped: there is no ${library}`);

@@ -201,7 +201,7 @@ void run_live_view(const Options& options) {
   const Interrupt interrupt;
   for (const std::string& refusal : loop.start().refused) std::printf("  note: %s\n", refusal.c_str());
   server->start();
-  announce(*server, "live view");
+  announce(*server, options, "live view");
 
   Director director(entries, builder, stages, watcher, *server, hello, [&] { return loop.is_running(); });
   while (loop.is_running() && !interrupt.has_come()) {
