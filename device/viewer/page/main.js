@@ -82,6 +82,7 @@ class Page {
     this.player = new Player(this.timeline, { ...elements, slider: $('time') }, isReplay);
     this.player.onChange = () => {
       this.areStripsOld = true;
+      if (this.player.isLive) this.live?.catchUp();
       this.showMoment();
     };
   }
