@@ -268,6 +268,15 @@ const tests = {
     assert.ok(!(await page.evaluate(() => feeler.live.greeting.gallery.some(({ title }) => title === 'large.stl'))));
   },
 
+  async a_folder_that_is_dropped_is_refused_in_words(page) {
+    await page.evaluate(() => {
+      const entry = { isDirectory: true, name: 'parts' };
+      document.body.dispatchEvent(Object.assign(new Event('drop', { bubbles: true }),
+        { dataTransfer: { items: [{ webkitGetAsEntry: () => entry }], files: [new File([], 'parts')] } }));
+    });
+    assert.match(await page.textContent('#sentence'), /^parts is a folder: drop the file/);
+  },
+
   async a_mesh_can_be_dropped_and_the_same_name_takes_its_place(page) {
     const entries = () => page.evaluate(() => feeler.live.greeting.gallery.filter(({ title }) => title === 'block.obj').length);
     assert.equal(await entries(), 1);
@@ -324,6 +333,21 @@ const tests = {
     assert.match(await page.textContent('#strips figure:first-child output'), /N/);
     await page.click('#live');
     await page.waitForFunction((t) => feeler.view.frame.time > t, paused);
+  },
+
+  async the_figures_in_the_corner_are_those_of_the_strips(page) {
+    await choose(page, 'spline');
+    await page.click('#show');
+    for (let i = 0; i < 10; ++i) {
+      await page.waitForTimeout(90);
+      const [corner, strips] = await page.evaluate(() => {
+        const figure = (id) => document.getElementById(`strip-${id}`).parentElement.querySelector('output').textContent;
+        const [force, torque, , apart] = [...document.querySelectorAll('#first .readings dd')].map((dd) => dd.textContent);
+        return [[force, torque, apart], [figure('force'), figure('torque'), `${figure('offset')}, ${figure('turn')}`]];
+      });
+      assert.deepEqual(corner, strips);
+    }
+    await page.click('#still');
   },
 
   async a_choice_of_another_page_does_not_end_a_look_at_the_past(page) {
@@ -570,9 +594,9 @@ await run('a_real_device_is_the_hand_and_the_page_only_looks', async () => {
 });
 
 await run('a_report_plays_without_a_server_and_two_are_compared', async () => {
-  const reports = ['0.001', '0.0001'].map((clearance, i) => ({ clearance, out: join(scratch, `report-${i}`) }));
-  for (const { clearance, out } of reports) {
-    const child = spawn(demo, ['--scene', 'cavity', '--clearance', clearance, '--seconds', '1', '--out', out], { stdio: 'ignore' });
+  const reports = [['0.001', '1'], ['0.0001', '1.5']].map(([clearance, seconds], i) => ({ clearance, seconds, out: join(scratch, `report-${i}`) }));
+  for (const { clearance, seconds, out } of reports) {
+    const child = spawn(demo, ['--scene', 'cavity', '--clearance', clearance, '--seconds', seconds, '--out', out], { stdio: 'ignore' });
     assert.equal(await new Promise((resolve) => child.on('exit', resolve)), 0);
   }
   const context = await browser.newContext();
@@ -593,6 +617,10 @@ await run('a_report_plays_without_a_server_and_two_are_compared', async () => {
   await page.evaluate(() => feeler.player.seek(0.5));
   const times = await page.evaluate(() => feeler.panes.map((pane) => pane.view.frame.time));
   assert.ok(Math.abs(times[0] - times[1]) < 0.002);
+  await page.evaluate(() => feeler.player.seek(1.4));  // the longer one rules
+  assert.ok(Math.abs((await page.evaluate(() => feeler.panes[1].view.frame.time)) - 1.4) < 0.01);
+  assert.ok((await page.evaluate(() => Number(document.getElementById('time').max))) > 1.45);
+  await page.waitForFunction(() => document.querySelector('#second .readings dd').textContent !== '–' && document.querySelector('#first .readings dd').textContent === '–');
   const before = await page.evaluate(() => feeler.player.cursor);
   await page.click('#back');
   assert.ok((await page.evaluate(() => feeler.player.cursor)) < before);
