@@ -379,7 +379,21 @@ const tests = {
     assert.ok(csv.length > 1000);
     const times = csv.slice(1, -1).map((line) => Number(line.split(',')[0]));
     assert.ok(times.every((t, i) => i === 0 || t > times[i - 1]), 'every tick once, in order');
-    assert.equal(readFileSync(await save('#save-png')).subarray(1, 4).toString(), 'PNG');
+    await page.click('#pause');
+    const picture = await page.evaluate(async (png) => {
+      const image = await createImageBitmap(await (await fetch(`data:image/png;base64,${png}`)).blob());
+      const canvas = Object.assign(document.createElement('canvas'), { width: image.width, height: image.height }), context = canvas.getContext('2d');
+      context.drawImage(image, 0, 0);
+      const inkIn = (left, y, width, height) => context.getImageData(left, y, width, height).data.filter((v, i) => i % 4 === 1 && v < 120).length;
+      const strips = document.getElementById('strips').getBoundingClientRect(), caption = document.querySelector('#strips figcaption').getBoundingClientRect();
+      const words = document.querySelector('#first .words').getBoundingClientRect();
+      return { width: image.width, strips: document.querySelector('footer').clientWidth,
+        title: inkIn(8, 8, words.width, words.height), caption: inkIn(caption.left - strips.left, image.height - 8 - (strips.bottom - caption.top), caption.width, caption.height) };
+    }, readFileSync(await save('#save-png')).toString('base64'));
+    assert.equal(picture.width, picture.strips, 'as wide as the strips are');
+    assert.ok(picture.title > 100 && picture.caption > 20, `title and captions are in it: ${JSON.stringify(picture)}`);
+    assert.ok(!(await page.evaluate(() => document.body.classList.contains('saving'))));
+    await page.click('#live');
     const recording = await save('#save-recording');
     const other = await open(page.url());
     await other.setInputFiles('#open-recording', [recording, recording]);

@@ -220,10 +220,13 @@ class Page {
     return `feeler-${this.stage?.scene ?? 'view'}.${ending}`;
   }
   async savePicture() {
-    this.view.render(true);
-    const canvases = [...document.querySelectorAll('#strips canvas')];
-    const palette = palettes[this.theme];
-    download(this.fileName('png'), await pngOf(this.view, canvases, palette, `${this.stage.title} · ${this.panes[0].parts.meta.textContent}`));
+    const views = this.shownPanes.map(({ view }) => view);
+    document.body.classList.add('saving');
+    const ends = views.map((view) => view.drawSharply());
+    const picture = pngOf([document.querySelector('main'), $('strips')], palettes[this.theme].card);
+    document.body.classList.remove('saving');
+    for (const end of ends) end();
+    download(this.fileName('png'), await picture);
   }
   saveRecording() {
     const mesh = this.recordings[0]?.mesh.buffer ?? this.meshBuffer;
