@@ -77,7 +77,7 @@ test('a strip is read at the tick of a time, and nothing is read after the last'
 });
 
 test('one is counted as one', () => {
-  assert.equal(counted(1, 'missed deadline'), '1 missed deadline');
+  assert.equal(counted(1, 'sample'), '1 sample');
   assert.equal(counted(0, 'tick'), '0 ticks');
   assert.equal(counted(12345, 'tick'), '12,345 ticks');
 });

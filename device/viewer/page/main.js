@@ -213,7 +213,7 @@ class Page {
     this.player.showTime();
     const { ticks, missed, converged } = countTicks(this.timeline.samples, this.strips.begin, this.strips.end);
     const lost = this.timeline.latest?.lost ? ` · ${counted(this.timeline.latest.lost, 'sample')} lost` : '';
-    $('counts').textContent = `${counted(ticks, 'tick')} · ${counted(missed, 'missed deadline')} · ${ticks ? (100 * converged / ticks).toFixed(1) : '–'} % converged${lost}`;
+    $('counts').textContent = `${counted(ticks, 'tick')} · ${missed} missed · ${ticks ? (100 * converged / ticks).toFixed(1) : '–'} % converged${lost}`;
   }
 
   fileName(ending) {

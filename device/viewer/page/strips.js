@@ -17,7 +17,7 @@ export const strips = [
 /** What is counted: of the samples that the strips show. */
 export const histograms = [
   { id: 'tick-histogram', title: 'Ticks by time', of: column('compute_us') },
-  { id: 'late-histogram', title: 'Ticks by lateness', of: column('late_us') },
+  { id: 'late-histogram', title: 'Lateness', of: column('late_us') },
 ];
 
 /** The value of a strip at a time, in words: whoever writes one has it from here. */
