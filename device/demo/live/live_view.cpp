@@ -144,15 +144,10 @@ class Director {
         is_running_(std::move(is_running)) {}
 
   void begin(Wish wish) {
-    const bool is_cancelled = std::holds_alternative<viewer::CancelRequest>(wish);
-    if (is_cancelled && !workshop_.is_busy()) return;
-    if (!file_.empty()) left_ = file_ + " was not opened: " + (is_cancelled ? "it was cancelled." : "something else was chosen meanwhile.");
-    file_.clear();
-    workshop_.abandon();
     try {
       std::visit([this](auto& which) { start(std::move(which)); }, wish);
     } catch (const std::exception& refusal) {
-      end("refusal", sentence_of(refusal));
+      tell("refusal", sentence_of(refusal));
     }
   }
 
@@ -170,15 +165,24 @@ class Director {
   }
 
  private:
-  void start(viewer::CancelRequest) { end("note", ""); }
+  static constexpr const char* other_choice = "something else was chosen meanwhile.";
 
-  void start(viewer::SceneRequest request) {
+  void start(viewer::CancelRequest) {
+    if (!workshop_.is_busy()) return;
+    make_way("it was cancelled.");
+    workshop_.abandon();
+    end("note", "");
+  }
+
+  void start(const viewer::SceneRequest& request) {
     const GalleryEntry entry = entry_of(gallery_, request.scene);
+    make_way(other_choice);
     say_what_is_built("Building " + entry.title + " …");
     workshop_.begin([this, entry, request](const std::stop_token& stop) { return Built{builder_.build(entry, request, stop)}; });
   }
 
   void start(SentFile sent) {
+    make_way(other_choice);
     file_ = sent.name;
     say_what_is_built("Opening " + sent.name + " …");
     workshop_.begin([this, number = ++own_meshes_, file = std::make_shared<const SentFile>(std::move(sent))](const std::stop_token& stop) {
@@ -197,14 +201,20 @@ class Director {
     server_.broadcast_text(text);
   }
 
+  void make_way(const std::string& why) {
+    if (!file_.empty()) left_ = file_ + " was not opened: " + why;
+    file_.clear();
+  }
+
   /// Nothing is being built any more.
   void end(const char* type, std::string sentence) {
     file_.clear();
     say_what_is_built("");
     if (!left_.empty()) sentence = sentence.empty() ? left_ : left_ + ' ' + sentence;
     left_.clear();
-    if (!sentence.empty()) server_.broadcast_text(shared_text(sentence_text(type, sentence)));
+    if (!sentence.empty()) tell(type, sentence);
   }
+  void tell(const char* type, const std::string& sentence) { server_.broadcast_text(shared_text(sentence_text(type, sentence))); }
 
   void add(GalleryEntry entry) {
     put_own_mesh_first(gallery_, std::move(entry));

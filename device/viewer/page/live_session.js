@@ -83,7 +83,9 @@ export class LiveSession {
   /** What the program says; where it refuses, the settings are still those of the stage on show. */
   hear(type, text) {
     this.page.say(text);
-    if (type === 'refusal') this.showSettings();
+    if (type !== 'refusal') return;
+    this.hasChosen = false;
+    this.showSettings();
   }
   showSettings() {
     const stage = this.waiting?.stage ?? this.page.stage;
