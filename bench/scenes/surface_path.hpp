@@ -1,9 +1,11 @@
 // The height of an object under a moving ray, smoothed in time: how a hand follows a surface that it sees.
 #pragma once
 
+#include <algorithm>
 #include <limits>
 #include <numbers>
 #include <utility>
+#include <vector>
 
 #include "scenes/motions.hpp"
 
@@ -15,12 +17,10 @@ struct Ray {
   Vector outward;
 };
 
-/// Distance from the ray's origin to its outermost crossing with the object [m]; −infinity where there is
-/// none.
-/// @cost every triangle
-inline double outermost_crossing(const Points<double>& vertices, const Triangles& triangles, const Ray& ray) {
+/// Distance from the ray's origin to its outermost crossing with the triangles from one to another [m]; −infinity where there is none.
+inline double outermost_crossing(const Points<double>& vertices, const Triangles& triangles, const Ray& ray, Eigen::Index first, Eigen::Index last) {
   double outermost = -std::numeric_limits<double>::infinity();
-  for (Eigen::Index i = 0; i < triangles.rows(); ++i) {
+  for (Eigen::Index i = first; i < last; ++i) {
     const Vector a = vertices.row(triangles(i, 0)).transpose();
     const Vector ab = vertices.row(triangles(i, 1)).transpose() - a;
     const Vector ac = vertices.row(triangles(i, 2)).transpose() - a;
@@ -38,6 +38,44 @@ inline double outermost_crossing(const Points<double>& vertices, const Triangles
   return outermost;
 }
 
+/// The triangles in bundles, each in a ball, so that a ray leaves out those that it passes by: neighbours in a list are neighbours in space mostly.
+class TriangleBundles {
+ public:
+  TriangleBundles(const Points<double>& vertices, const Triangles& triangles) : vertices_(vertices), triangles_(triangles) {
+    for (Eigen::Index first = 0; first < triangles.rows(); first += size) {
+      Eigen::AlignedBox3d box;
+      for (Eigen::Index i = first; i < last_of(first); ++i)
+        for (int k = 0; k < 3; ++k) box.extend(Vector(vertices.row(triangles(i, k)).transpose()));
+      balls_.push_back({box.center(), 0.501 * box.diagonal().norm()});
+    }
+  }
+
+  /// Of all triangles.
+  double outermost_crossing(const Ray& ray) const {
+    double outermost = -std::numeric_limits<double>::infinity();
+    for (std::size_t b = 0; b < balls_.size(); ++b) {
+      const Vector way = balls_[b].centre - ray.origin;
+      if ((way - ray.outward.dot(way) * ray.outward).norm() > balls_[b].radius) continue;
+      const Eigen::Index first = Eigen::Index(b) * size;
+      outermost = std::max(outermost, scenes::outermost_crossing(vertices_, triangles_, ray, first, last_of(first)));
+    }
+    return outermost;
+  }
+
+ private:
+  static constexpr Eigen::Index size = 64;
+  struct Ball {
+    Vector centre;
+    double radius;
+  };
+
+  Eigen::Index last_of(Eigen::Index first) const { return std::min(first + size, triangles_.rows()); }
+
+  const Points<double>& vertices_;
+  const Triangles& triangles_;
+  std::vector<Ball> balls_;
+};
+
 /// Heights of a surface along a moving ray: cast once at regular times, averaged, then joined by cubic
 /// curves.
 ///
@@ -53,8 +91,9 @@ class SurfacePath {
       : duration_(duration) {
     const int knots = int(std::ceil(duration / spacing)) + 1;
     std::vector<double> cast(std::size_t(knots), fallback);
+    const TriangleBundles bundles(vertices, triangles);
     for (int i = 0; i < knots; ++i) {
-      const double height = outermost_crossing(vertices, triangles, ray_at(double(i) * spacing));
+      const double height = bundles.outermost_crossing(ray_at(double(i) * spacing));
       const double before = i > 0 ? cast[std::size_t(i - 1)] : fallback;
       cast[std::size_t(i)] = std::isfinite(height) ? height : before;
     }

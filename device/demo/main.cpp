@@ -3,6 +3,7 @@
 // Exit code 0: nothing penetrated; 1: something did, or a replayed session differs; 2: the input cannot be used; 3: the program failed.
 #include <cstdio>
 #include <exception>
+#include <new>
 
 #include "bad_input.hpp"
 #include "feeler/device/device_catalogue.hpp"
@@ -115,6 +116,9 @@ int main(int argument_count, char** arguments) {
   } catch (const feeler::demo::BadInput& problem) {
     std::fprintf(stderr, "feeler-demo: %s\n", problem.what());
     return feeler::demo::bad_input;
+  } catch (const std::bad_alloc& problem) {
+    std::fprintf(stderr, "feeler-demo: %s\n", feeler::demo::sentence_of(problem).c_str());
+    return feeler::demo::failure;
   } catch (const std::exception& problem) {
     std::fprintf(stderr, "feeler-demo: %s\n", problem.what());
     return feeler::demo::failure;

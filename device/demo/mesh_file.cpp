@@ -88,10 +88,11 @@ void drop_all_but_positions(Assimp::Importer& importer) {
                                                           aiComponent_TEXCOORDS | aiComponent_TEXTURES | aiComponent_MATERIALS);
 }
 
-/// @param scene  null where the file was not understood
-Mesh mesh_of(const aiScene* scene, const Assimp::Importer& importer, const std::string& name, double scale) {
+/// @param scene  null where the file was not understood; the reader's own words say nothing to a user
+Mesh mesh_of(const aiScene* scene, const std::string& name, double scale) {
   if (scene == nullptr || scene->mRootNode == nullptr)
-    throw BadInput("The file " + name + " cannot be read as a mesh (" + importer.GetErrorString() + "): give an STL, OBJ, PLY or OFF file.");
+    throw BadInput("The file " + name +
+                   " cannot be read as a mesh: it is damaged, or of another kind than its name says. Export it again, as STL, OBJ, PLY or OFF.");
   MeshGatherer gatherer(*scene);
   gatherer.add(*scene->mRootNode, aiMatrix4x4());
   Mesh mesh = gatherer.mesh(scale);
@@ -114,7 +115,7 @@ Mesh load_mesh(const std::filesystem::path& file, double scale) {
   check_file(file);
   Assimp::Importer importer;
   drop_all_but_positions(importer);
-  return mesh_of(importer.ReadFile(file.string(), assimp_steps), importer, file.string(), scale);
+  return mesh_of(importer.ReadFile(file.string(), assimp_steps), file.string(), scale);
 }
 
 Mesh read_mesh(const std::string& bytes, const std::string& name) {
@@ -125,7 +126,7 @@ Mesh read_mesh(const std::string& bytes, const std::string& name) {
   Assimp::Importer importer;
   importer.SetIOHandler(new NoFiles);  // which the importer owns
   drop_all_but_positions(importer);
-  return mesh_of(importer.ReadFileFromMemory(bytes.data(), bytes.size(), assimp_steps, kind.c_str() + 1), importer, name, 1.0);
+  return mesh_of(importer.ReadFileFromMemory(bytes.data(), bytes.size(), assimp_steps, kind.c_str() + 1), name, 1.0);
 }
 
 }  // namespace feeler::demo

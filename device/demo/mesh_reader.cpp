@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <cstdio>
 #include <cstring>
-#include <exception>
+#include <new>
 
 #include "bad_input.hpp"
 #include "program.hpp"
@@ -29,6 +29,11 @@ std::string read_input() {
 
 bool write(const void* bytes, std::size_t size) { return std::fwrite(bytes, 1, size, stdout) == size; }
 
+bool write_refusal(const std::string& sentence) {
+  constexpr Counts none{0, 0};
+  return write(&none, sizeof none) && write(sentence.data(), sentence.size());
+}
+
 }  // namespace
 
 int run_mesh_reader(const std::string& name) {
@@ -42,15 +47,16 @@ int run_mesh_reader(const std::string& name) {
     const Counts counts{mesh.vertices.rows(), mesh.triangles.rows()};
     is_written = write(&counts, sizeof counts) && write(mesh.vertices.data(), sizeof(double) * std::size_t(mesh.vertices.size())) &&
                  write(mesh.triangles.data(), sizeof(int) * std::size_t(mesh.triangles.size()));
-  } catch (const std::exception& refusal) {
-    const Counts none{0, 0};
-    is_written = write(&none, sizeof none) && write(refusal.what(), std::strlen(refusal.what()));
+  } catch (const BadInput& refusal) {
+    is_written = write_refusal(refusal.what());
+  } catch (const std::bad_alloc&) {
+    is_written = write_refusal("The file " + name + " takes more than 4 GB of memory to read: reduce its triangles first.");
   }
   return is_written && std::fflush(stdout) == 0 ? 0 : 3;
 }
 
-Mesh read_mesh_apart(const std::string& bytes, const std::string& name) {
-  const std::optional<std::string> answer = filter({"/proc/self/exe", mesh_reader_argument, name}, bytes);
+Mesh read_mesh_apart(const std::string& bytes, const std::string& name, const std::stop_token& stop) {
+  const std::optional<std::string> answer = filter({"/proc/self/exe", mesh_reader_argument, name}, bytes, stop);
   Counts counts{};
   if (!answer || answer->size() < sizeof counts)
     throw BadInput("The file " + name + " cannot be read: its reader failed, or was not done after ten seconds. Export the mesh again, as STL.");

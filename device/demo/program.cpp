@@ -6,6 +6,8 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <cerrno>
+#include <csignal>
 #include <cstdio>
 #include <memory>
 
@@ -33,6 +35,13 @@ std::vector<char*> arguments_of(const std::vector<std::string>& command) {
   _exit(not_run);
 }
 
+/// Leaves it a zombie, so that whoever kills it kills no other program of its number.
+void wait_or_kill(pid_t child, const std::stop_token& stop) {
+  const std::stop_callback kills(stop, [child] { kill(child, SIGKILL); });
+  siginfo_t info;
+  while (waitid(P_PID, id_t(child), &info, WEXITED | WNOWAIT) != 0 && errno == EINTR) {}
+}
+
 }  // namespace
 
 int run_program(const std::filesystem::path& folder, const std::vector<std::string>& command) {
@@ -57,7 +66,7 @@ void start_program(const std::vector<std::string>& command) {
   waitpid(child, nullptr, 0);
 }
 
-std::optional<std::string> filter(const std::vector<std::string>& command, const std::string& input) {
+std::optional<std::string> filter(const std::vector<std::string>& command, const std::string& input, const std::stop_token& stop) {
   auto closed = [](std::FILE* file) { std::fclose(file); };
   const std::unique_ptr<std::FILE, decltype(closed)> in(std::tmpfile(), closed), out(std::tmpfile(), closed);
   if (!in || !out || std::fwrite(input.data(), 1, input.size(), in.get()) != input.size()) return {};
@@ -73,6 +82,7 @@ std::optional<std::string> filter(const std::vector<std::string>& command, const
   // No fork: the servo loop would have to wait for its own pages.
   const bool has_begun = posix_spawnp(&child, arguments[0], &actions, nullptr, arguments.data(), environ) == 0;
   posix_spawn_file_actions_destroy(&actions);
+  if (has_begun) wait_or_kill(child, stop);
   int status = 0;
   if (!has_begun || waitpid(child, &status, 0) != child || !WIFEXITED(status) || WEXITSTATUS(status) != 0) return {};
   std::string output;

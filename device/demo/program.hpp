@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <optional>
+#include <stop_token>
 #include <string>
 #include <vector>
 
@@ -15,7 +16,8 @@ int run_program(const std::filesystem::path& folder, const std::vector<std::stri
 /// Starts a program of the search path and does not wait for it; nothing happens where it cannot be run.
 void start_program(const std::vector<std::string>& command);
 
-/// Runs a program with bytes as its input, and returns its output; nothing where it fails. The rest of this program runs on undisturbed.
-std::optional<std::string> filter(const std::vector<std::string>& command, const std::string& input);
+/// Runs a program with bytes as its input, and returns its output; nothing where it fails, or is stopped. The rest of this program runs on
+/// undisturbed.
+std::optional<std::string> filter(const std::vector<std::string>& command, const std::string& input, const std::stop_token& stop);
 
 }  // namespace feeler::demo

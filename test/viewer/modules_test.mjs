@@ -4,13 +4,13 @@ import assert from 'node:assert/strict';
 import { test } from 'node:test';
 import { clipped, clippedSegment, cutMesh, cutPiece, cuttingPlane, enclose, gapBetween, loopsOf, placed } from '../../device/viewer/page/cross_section.js';
 import { creaseLines } from '../../device/viewer/page/creases.js';
-import { contactTypes, countTypes, withUnit } from '../../device/viewer/page/format.js';
+import { contactTypes, counted, countTypes, withUnit } from '../../device/viewer/page/format.js';
 import { readSticks } from '../../device/viewer/page/gamepad.js';
 import { families, palettes } from '../../device/viewer/page/palette.js';
 import { readFrameAt, readMessage, sampleColumns, sampleWords } from '../../device/viewer/page/protocol.js';
 import { readRecording, writeRecording } from '../../device/viewer/page/recording.js';
 import { csvOf } from '../../device/viewer/page/save.js';
-import { countTicks } from '../../device/viewer/page/strips.js';
+import { countTicks, readingAt } from '../../device/viewer/page/strips.js';
 import { Timeline } from '../../device/viewer/page/timeline.js';
 
 /** A frame as the server sends it, with a contact of a type and samples at these times. */
@@ -65,6 +65,21 @@ test('a timeline keeps a minute of samples and frames, and finds them by time', 
   assert.equal(timeline.frameAt(0).time, timeline.frames[0].time);
   assert.ok(timeline.frames.length < 700);
   assert.equal(timeline.samples.time(timeline.samples.from(150.05)), 150.1);
+});
+
+test('a strip is read at the tick of a time, and nothing is read after the last', () => {
+  const timeline = new Timeline(10);
+  for (const time of [0.001, 0.002]) timeline.add(frame(time), true);
+  assert.equal(readingAt(timeline.samples, 'force', 0.001), '5 N');
+  assert.equal(readingAt(timeline.samples, 'turn', 0.002), '5.73°');
+  assert.equal(readingAt(timeline.samples, 'force', 0.01), '–');
+  assert.equal(readingAt(new Timeline().samples, 'force', 0), '–');
+});
+
+test('one is counted as one', () => {
+  assert.equal(counted(1, 'sample'), '1 sample');
+  assert.equal(counted(0, 'tick'), '0 ticks');
+  assert.equal(counted(12345, 'tick'), '12,345 ticks');
 });
 
 test('ticks, missed deadlines and converged ones are counted', () => {

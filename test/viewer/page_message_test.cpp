@@ -8,6 +8,7 @@
 
 BOOST_AUTO_TEST_SUITE(page_message)
 
+using feeler::viewer::CancelRequest;
 using feeler::viewer::HandMode;
 using feeler::viewer::HandRequest;
 using feeler::viewer::parse_page_message;
@@ -33,6 +34,10 @@ BOOST_AUTO_TEST_CASE(a_scene_is_read_with_what_it_says_and_no_more) {
   BOOST_TEST(scene.method == "paper");
   BOOST_TEST(scene.tool == "needle");
   BOOST_TEST(scene.scalar.empty());
+}
+
+BOOST_AUTO_TEST_CASE(a_cancelled_choice_is_read) {
+  BOOST_TEST(std::holds_alternative<CancelRequest>(parse_page_message(R"({"type":"cancel"})").message.value()));
 }
 
 BOOST_AUTO_TEST_CASE(what_is_wrong_is_refused_with_a_sentence) {

@@ -58,6 +58,25 @@ const blockObj = (side) => [
   ...[0, 1, 2, 3, 4, 5, 6, 7].map((i) => `v ${[1, 2, 4].map((bit) => (i & bit ? side / 2 : -side / 2)).join(' ')}`),
   ...['1 3 4 2', '5 6 8 7', '1 2 6 5', '3 7 8 4', '1 5 7 3', '2 4 8 6'].map((face) => `f ${face}`), ''].join('\n');
 
+/** A bumpy ring as binary STL, of 2·n² triangles. */
+function ringStl(n) {
+  const point = (i, j) => {
+    const [u, v] = [i, j].map((k) => 2 * Math.PI * (k % n) / n), r = 15 + Math.sin(30 * u) * Math.sin(20 * v), away = 40 + r * Math.cos(v);
+    return [away * Math.cos(u), away * Math.sin(u), r * Math.sin(v)];
+  };
+  const bytes = Buffer.alloc(84 + 100 * n * n);
+  let at = bytes.writeUInt32LE(2 * n * n, 80);
+  for (let k = 0; k < n * n; ++k) {
+    const i = Math.floor(k / n), j = k % n, [a, b, c, d] = [point(i, j), point(i + 1, j), point(i + 1, j + 1), point(i, j + 1)];
+    for (const corners of [[a, b, c], [a, c, d]]) {
+      at += 12;
+      for (const x of corners.flat()) at = bytes.writeFloatLE(x, at);
+      at += 2;
+    }
+  }
+  return bytes;
+}
+
 /** Until it is on show, and its sentence is said. */
 async function openMesh(page, name, text) {
   await page.setInputFiles('#open-mesh', { name, mimeType: 'model/obj', buffer: Buffer.from(text) });
@@ -191,6 +210,7 @@ const tests = {
     const before = await frame(page);
     assert.equal(before.mode, 'still');
     assert.ok(before.force < 1e-6, 'it begins free');
+    await page.waitForFunction(() => !feeler.live.work);
     await page.click('#show');
     await page.waitForFunction(() => Math.hypot(...feeler.timeline.latest.force) > 0.5);
     const inside = await page.evaluate(() => {
@@ -206,12 +226,55 @@ const tests = {
 
   async millimetres_are_guessed_said_and_can_be_chosen_otherwise(page) {
     await openMesh(page, 'large <b>&.obj', blockObj(50));
-    assert.match(await page.textContent('#sentence'), /large <b>&\.obj: .*in millimetres/);
+    assert.match(await page.textContent('#sentence'), /large <b>&\.obj: .*closed surface\. Taken as 50 mm × 50 mm × 50 mm, its numbers in millimetres, which is a guess/);
     assert.equal(await page.inputValue('#settings select[name=variant]'), 'in millimetres');
     const width = () => page.evaluate(() => 2 * feeler.view.object.halfSize.x);
     assert.ok(Math.abs((await width()) - 0.05) < 1e-6);
     await page.selectOption('#settings select[name=variant]', 'in inches');
     await page.waitForFunction(() => feeler.stage.variant === 'in inches' && Math.abs(2 * feeler.view.object.halfSize.x - 50 * 0.0254) < 1e-5);
+  },
+
+  async a_unit_that_is_chosen_is_no_guess(page) {
+    await page.selectOption('#unit', 'mm');
+    await openMesh(page, 'small.obj', blockObj(0.5));
+    assert.match(await page.textContent('#sentence'), /Taken as 500 µm × 500 µm × 500 µm, its numbers in millimetres\.$/);
+    await page.selectOption('#unit', '');
+    await openMesh(page, 'small.obj', blockObj(0.5));
+    assert.match(await page.textContent('#sentence'), /Taken as 500 mm × 500 mm × 500 mm, its numbers in metres, which is a guess/);
+    await openMesh(page, 'small.obj', blockObj(1));
+    assert.match(await page.textContent('#sentence'), /Taken as 1 mm × .*in millimetres, which is a guess/);
+  },
+
+  async the_opening_of_a_large_mesh_is_ended_by_cancel_and_by_a_newer_choice(page) {
+    const large = { name: 'large.stl', mimeType: 'model/stl', buffer: ringStl(600) };
+    const { stage } = await frame(page);
+    const openIt = async () => {
+      await page.setInputFiles('#open-mesh', large);
+      await page.waitForFunction(() => /Opening large.stl …/.test(document.getElementById('sentence').textContent));
+      await page.waitForSelector('#cancel:visible');
+    };
+    await openIt();
+    assert.ok(!(await page.isVisible('#open-mesh')));
+    await page.click('#cancel');
+    await page.waitForFunction(() => /large.stl was not opened: it was cancelled/.test(document.getElementById('sentence').textContent), null, { timeout: 1000 });
+    await page.waitForSelector('#open-mesh:visible');
+    await openIt();
+    await page.click('#gallery [data-scene="steps"]');
+    await page.waitForFunction(() => feeler.stage.scene === 'steps', null, { timeout: 2000 });
+    await page.waitForFunction(() => /large.stl was not opened: something else was chosen/.test(document.getElementById('sentence').textContent));
+    await page.waitForTimeout(8000);  // what was cancelled does not come later
+    assert.equal((await page.evaluate(() => feeler.stage.scene)), 'steps');
+    assert.ok((await frame(page)).stage > stage);
+    assert.ok(!(await page.evaluate(() => feeler.live.greeting.gallery.some(({ title }) => title === 'large.stl'))));
+  },
+
+  async a_folder_that_is_dropped_is_refused_in_words(page) {
+    await page.evaluate(() => {
+      const entry = { isDirectory: true, name: 'parts' };
+      document.body.dispatchEvent(Object.assign(new Event('drop', { bubbles: true }),
+        { dataTransfer: { items: [{ webkitGetAsEntry: () => entry }], files: [new File([], 'parts')] } }));
+    });
+    assert.match(await page.textContent('#sentence'), /^parts is a folder: drop the file/);
   },
 
   async a_mesh_can_be_dropped_and_the_same_name_takes_its_place(page) {
@@ -230,10 +293,11 @@ const tests = {
   async files_that_are_no_mesh_are_refused_in_words_and_the_loop_goes_on(page) {
     const { stage } = await frame(page);
     const bad = {
-      'empty.stl': ['', /is empty/], 'notes.txt': ['hello', /of no kind that is read here/], 'noise.ply': ['ply\nnoise', /cannot be read as a mesh/],
+      'empty.stl': ['', /is empty/], 'notes.txt': ['hello', /of no kind that is read here/], 'noise.ply': ['ply\nnoise', /cannot be read as a mesh: it is damaged/],
       'points.obj': ['v 0 0 0\nv 1 0 0\n', /cannot be read as a mesh|no triangles/], 'nan.off': ['OFF\n3 1 0\nnan 0 0\n1 0 0\n0 1 0\n3 0 1 2\n', /NaN|cannot be read/],
       'far.off': ['OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 9\n', /far.off(:| cannot| has)/], 'huge.off': ['OFF\n4000000000 4000000000 0\n', /cannot be read/],
       'short.off': ['OFF\n8 12 0\n3 0 2 3\n3 0 3 1\n3 4 5 7\n3 4 7 6\n3 0 1 5\n3 0 5 4\n3 2 6 7\n3 2 7 3', /cannot be read: its reader failed/],  // ends its reader
+      'damaged.stl': [Buffer.alloc(90, 1), /cannot be read as a mesh: it is damaged/],
       'materials.obj': [`mtllib /dev/zero\n${blockObj(0.03)}`, /materials.obj: 12 triangles/],
     };
     for (const [name, [text, answer]] of Object.entries(bad)) {
@@ -242,6 +306,7 @@ const tests = {
         const { textContent } = document.getElementById('sentence');
         return new RegExp(source).test(textContent) && textContent.includes(nameIn);
       }, [answer.source, name]).catch(async () => assert.fail(`${name}: ${await page.textContent('#sentence')}`));
+      assert.doesNotMatch(await page.textContent('#sentence'), /\$\$\$|std::/);
     }
     const large = join(scratch, 'large.stl');
     writeFileSync(large, Buffer.alloc(64 * 2 ** 20 + 1));
@@ -270,6 +335,37 @@ const tests = {
     await page.waitForFunction((t) => feeler.view.frame.time > t, paused);
   },
 
+  async the_figures_in_the_corner_are_those_of_the_strips(page) {
+    await choose(page, 'spline');
+    await page.click('#show');
+    for (let i = 0; i < 10; ++i) {
+      await page.waitForTimeout(90);
+      const [corner, strips] = await page.evaluate(() => {
+        const figure = (id) => document.getElementById(`strip-${id}`).parentElement.querySelector('output').textContent;
+        const [force, torque, , apart] = [...document.querySelectorAll('#first .readings dd')].map((dd) => dd.textContent);
+        return [[force, torque, apart], [figure('force'), figure('torque'), `${figure('offset')}, ${figure('turn')}`]];
+      });
+      assert.deepEqual(corner, strips);
+    }
+    await page.click('#still');
+  },
+
+  async a_choice_of_another_page_does_not_end_a_look_at_the_past(page) {
+    await choose(page, 'steps');
+    await page.click('#pause');
+    const { cursor, stage } = await page.evaluate(() => ({ cursor: feeler.player.cursor, stage: feeler.stage.stage }));
+    const other = await open(page.url());
+    await choose(other, 'tunnel');
+    await page.waitForFunction(() => /Another page has chosen Tunnel of thin walls/.test(document.getElementById('sentence').textContent));
+    assert.deepEqual(await page.evaluate(() => ({ cursor: feeler.player.cursor, stage: feeler.stage.stage })), { cursor, stage });
+    await page.click('#live');
+    await page.waitForFunction(() => feeler.stage.scene === 'tunnel' && feeler.view.mesh && feeler.view.frame?.stage === feeler.stage.stage);
+    await page.click('#pause');
+    await choose(page, 'cavity');  // one's own goes live
+    assert.ok(await page.evaluate(() => feeler.player.isLive));
+    await other.context().close();
+  },
+
   async samples_picture_and_recording_are_saved(page) {
     const save = async (button) => {
       await page.evaluate(() => (document.querySelector('.menu').open = true));
@@ -283,7 +379,21 @@ const tests = {
     assert.ok(csv.length > 1000);
     const times = csv.slice(1, -1).map((line) => Number(line.split(',')[0]));
     assert.ok(times.every((t, i) => i === 0 || t > times[i - 1]), 'every tick once, in order');
-    assert.equal(readFileSync(await save('#save-png')).subarray(1, 4).toString(), 'PNG');
+    await page.click('#pause');
+    const picture = await page.evaluate(async (png) => {
+      const image = await createImageBitmap(await (await fetch(`data:image/png;base64,${png}`)).blob());
+      const canvas = Object.assign(document.createElement('canvas'), { width: image.width, height: image.height }), context = canvas.getContext('2d');
+      context.drawImage(image, 0, 0);
+      const inkIn = (left, y, width, height) => context.getImageData(left, y, width, height).data.filter((v, i) => i % 4 === 1 && v < 120).length;
+      const strips = document.getElementById('strips').getBoundingClientRect(), caption = document.querySelector('#strips figcaption').getBoundingClientRect();
+      const words = document.querySelector('#first .words').getBoundingClientRect();
+      return { width: image.width, strips: document.querySelector('footer').clientWidth,
+        title: inkIn(8, 8, words.width, words.height), caption: inkIn(caption.left - strips.left, image.height - 8 - (strips.bottom - caption.top), caption.width, caption.height) };
+    }, readFileSync(await save('#save-png')).toString('base64'));
+    assert.equal(picture.width, picture.strips, 'as wide as the strips are');
+    assert.ok(picture.title > 100 && picture.caption > 20, `title and captions are in it: ${JSON.stringify(picture)}`);
+    assert.ok(!(await page.evaluate(() => document.body.classList.contains('saving'))));
+    await page.click('#live');
     const recording = await save('#save-recording');
     const other = await open(page.url());
     await other.setInputFiles('#open-recording', [recording, recording]);
@@ -458,6 +568,15 @@ await run('a_lost_connection_is_told_and_comes_back', async () => {
   complaints.length = 0;  // the browser notes each attempt
 });
 
+await run('an_address_is_printed_that_another_room_can_open', async () => {
+  const server = await startDemo('--scene', 'cavity', '--port', '0', '--listen', '0.0.0.0');
+  assert.doesNotMatch(server.url, /0\.0\.0\.0/);
+  assert.match(server.url, /\?token=\w{32}$/);
+  assert.equal((await fetch(server.url)).status, 200);
+  assert.equal((await fetch(server.url.split('?')[0])).status, 403);
+  await server.stop();
+});
+
 await run('a_real_device_is_the_hand_and_the_page_only_looks', async () => {
   const library = join(standIns, 'libforce_dimension_stand_in.so');
   if (!existsSync(library)) return console.log(`skipped: there is no ${library}`);
@@ -489,9 +608,9 @@ await run('a_real_device_is_the_hand_and_the_page_only_looks', async () => {
 });
 
 await run('a_report_plays_without_a_server_and_two_are_compared', async () => {
-  const reports = ['0.001', '0.0001'].map((clearance, i) => ({ clearance, out: join(scratch, `report-${i}`) }));
-  for (const { clearance, out } of reports) {
-    const child = spawn(demo, ['--scene', 'cavity', '--clearance', clearance, '--seconds', '1', '--out', out], { stdio: 'ignore' });
+  const reports = [['0.001', '1'], ['0.0001', '1.5']].map(([clearance, seconds], i) => ({ clearance, seconds, out: join(scratch, `report-${i}`) }));
+  for (const { clearance, seconds, out } of reports) {
+    const child = spawn(demo, ['--scene', 'cavity', '--clearance', clearance, '--seconds', seconds, '--out', out], { stdio: 'ignore' });
     assert.equal(await new Promise((resolve) => child.on('exit', resolve)), 0);
   }
   const context = await browser.newContext();
@@ -512,6 +631,10 @@ await run('a_report_plays_without_a_server_and_two_are_compared', async () => {
   await page.evaluate(() => feeler.player.seek(0.5));
   const times = await page.evaluate(() => feeler.panes.map((pane) => pane.view.frame.time));
   assert.ok(Math.abs(times[0] - times[1]) < 0.002);
+  await page.evaluate(() => feeler.player.seek(1.4));  // the longer one rules
+  assert.ok(Math.abs((await page.evaluate(() => feeler.panes[1].view.frame.time)) - 1.4) < 0.01);
+  assert.ok((await page.evaluate(() => Number(document.getElementById('time').max))) > 1.45);
+  await page.waitForFunction(() => document.querySelector('#second .readings dd').textContent !== '–' && document.querySelector('#first .readings dd').textContent === '–');
   const before = await page.evaluate(() => feeler.player.cursor);
   await page.click('#back');
   assert.ok((await page.evaluate(() => feeler.player.cursor)) < before);

@@ -1,4 +1,4 @@
-// Three threads: the servo loop, the server that watches it, and this one, which builds what the pages choose.
+// The servo loop, the server that watches it, and this thread, which has built what the pages choose.
 #include "live/live_view.hpp"
 
 #include <chrono>
@@ -12,6 +12,7 @@
 #include "bad_input.hpp"
 #include "feeler/viewer/page.hpp"
 #include "feeler/viewer/page_message.hpp"
+#include "feeler/viewer/request_gate.hpp"
 #include "feeler/viewer/server.hpp"
 #include "feeler/viewer/wire.hpp"
 #include "live/interrupt.hpp"
@@ -22,6 +23,7 @@
 #include "live/stage_description.hpp"
 #include "live/stage_switch.hpp"
 #include "live/wishes.hpp"
+#include "live/workshop.hpp"
 #include "real_device.hpp"
 
 namespace feeler::demo {
@@ -46,12 +48,14 @@ class Watcher {
     };
     settings.on_open = [this](viewer::PageLink& page) {
       page.send_text(hello_);
+      if (work_) page.send_text(work_);
       page.send_text(shown_.text);
       page.send_binary(shown_.mesh);
     };
     settings.on_text = [this](std::string_view text) { return answer(text); };
-    settings.on_file = [this](std::string name, std::string bytes) {
-      return wishes_.add(SentFile{std::move(name), std::move(bytes)}) ? "" : "Another file is being read: open this one again.";
+    settings.on_file = [this](std::string_view target, std::string bytes) {
+      wishes_.add(SentFile{viewer::query_text(target, "name"), viewer::query_text(target, "unit"), std::move(bytes)});
+      return std::string();
     };
     settings.on_frame = [this] { return frame(); };
     return settings;
@@ -59,6 +63,7 @@ class Watcher {
 
   void show(Shown shown) { shown_ = std::move(shown); }
   void greet_with(Text hello) { hello_ = std::move(hello); }
+  void say_what_is_built(Text work) { work_ = std::move(work); }
 
  private:
   std::string answer(std::string_view text) {
@@ -67,8 +72,10 @@ class Watcher {
     if (const auto* hand = std::get_if<viewer::HandRequest>(&*parsed.message)) {
       if (!refusal_of_hands_.empty()) return sentence_text("refusal", refusal_of_hands_);
       feed_.ask(*hand);
+    } else if (auto* scene = std::get_if<viewer::SceneRequest>(&*parsed.message)) {
+      wishes_.add(std::move(*scene));
     } else {
-      wishes_.add(std::get<viewer::SceneRequest>(std::move(*parsed.message)));
+      wishes_.add(viewer::CancelRequest());
     }
     return {};
   }
@@ -88,6 +95,7 @@ class Watcher {
   viewer::LiveFeed& feed_;
   Wishes& wishes_;
   Text hello_;
+  Text work_;  // none where nothing is being built
   Shown shown_;
   Text page_;
   std::string refusal_of_hands_;
@@ -115,7 +123,14 @@ Shown build_first(StageBuilder& builder, const std::vector<GalleryEntry>& galler
   }
 }
 
-/// Builds what pages wish for, and puts it on show.
+/// What a wish came to.
+struct Built {
+  Shown shown;
+  std::optional<GalleryEntry> entry = {};  ///< of a file: new in the gallery
+  std::string sentence = {};
+};
+
+/// Has built what pages wish for, the newest of it, and puts it on show.
 class Director {
  public:
   Director(std::vector<GalleryEntry>& gallery, StageBuilder& builder, StageSwitch& stages, Watcher& watcher, viewer::Server& server,
@@ -128,26 +143,83 @@ class Director {
         hello_(std::move(hello)),
         is_running_(std::move(is_running)) {}
 
-  void fulfil(const Wish& wish) {
+  void begin(Wish wish) {
     try {
-      std::visit([this](const auto& which) { fulfil(which); }, wish);
+      std::visit([this](auto& which) { start(std::move(which)); }, wish);
     } catch (const std::exception& refusal) {
-      tell("refusal", refusal.what());
+      tell("refusal", sentence_of(refusal));
+    }
+  }
+
+  /// Shows what is done.
+  void advance() {
+    try {
+      std::optional<Built> built = workshop_.result();
+      if (!built) return;
+      if (built->entry) add(std::move(*built->entry));
+      show(built->shown);
+      end("note", built->sentence);
+    } catch (const std::exception& refusal) {
+      end("refusal", sentence_of(refusal));
     }
   }
 
  private:
-  void fulfil(const viewer::SceneRequest& request) { show(builder_.build(entry_of(gallery_, request.scene), request)); }
+  static constexpr const char* other_choice = "something else was chosen meanwhile.";
 
-  void fulfil(const SentFile& file) {
-    GalleryEntry entry = own_mesh_entry(file, ++own_meshes_);
-    const Shown shown = builder_.build(entry, {});
-    const std::string sentence = sentence_of(entry, shown.stage->object().report());
+  void start(viewer::CancelRequest) {
+    if (!workshop_.is_busy()) return;
+    make_way("it was cancelled.");
+    workshop_.abandon();
+    end("note", "");
+  }
+
+  void start(const viewer::SceneRequest& request) {
+    const GalleryEntry entry = entry_of(gallery_, request.scene);
+    make_way(other_choice);
+    say_what_is_built("Building " + entry.title + " …");
+    workshop_.begin([this, entry, request](const std::stop_token& stop) { return Built{builder_.build(entry, request, stop)}; });
+  }
+
+  void start(SentFile sent) {
+    make_way(other_choice);
+    file_ = sent.name;
+    say_what_is_built("Opening " + sent.name + " …");
+    workshop_.begin([this, number = ++own_meshes_, file = std::make_shared<const SentFile>(std::move(sent))](const std::stop_token& stop) {
+      Built built;
+      built.entry = own_mesh_entry(*file, number, stop);
+      go_on_unless(stop);
+      built.shown = builder_.build(*built.entry, {}, stop);
+      built.sentence = sentence_of(*file, *built.entry, built.shown.stage->object().report());
+      return built;
+    });
+  }
+
+  void say_what_is_built(const std::string& work) {
+    const Text text = shared_text(sentence_text("work", work));
+    server_.post([&watcher = watcher_, text = work.empty() ? nullptr : text] { watcher.say_what_is_built(text); });
+    server_.broadcast_text(text);
+  }
+
+  void make_way(const std::string& why) {
+    if (!file_.empty()) left_ = file_ + " was not opened: " + why;
+    file_.clear();
+  }
+
+  /// Nothing is being built any more.
+  void end(const char* type, std::string sentence) {
+    file_.clear();
+    say_what_is_built("");
+    if (!left_.empty()) sentence = sentence.empty() ? left_ : left_ + ' ' + sentence;
+    left_.clear();
+    if (!sentence.empty()) tell(type, sentence);
+  }
+  void tell(const char* type, const std::string& sentence) { server_.broadcast_text(shared_text(sentence_text(type, sentence))); }
+
+  void add(GalleryEntry entry) {
     put_own_mesh_first(gallery_, std::move(entry));
     server_.post([&watcher = watcher_, hello = hello_()] { watcher.greet_with(hello); });
     server_.broadcast_text(shared_text(gallery_text(gallery_)));
-    show(shown);
-    tell("note", sentence);
   }
 
   void show(const Shown& shown) {
@@ -157,8 +229,6 @@ class Director {
     stages_.offer(shown.stage, is_running_);
   }
 
-  void tell(const char* type, const std::string& sentence) { server_.broadcast_text(shared_text(sentence_text(type, sentence))); }
-
   std::vector<GalleryEntry>& gallery_;
   StageBuilder& builder_;
   StageSwitch& stages_;
@@ -167,6 +237,9 @@ class Director {
   std::function<Text()> hello_;
   std::function<bool()> is_running_;
   int own_meshes_ = 0;
+  std::string file_;  // that is being opened; empty for none
+  std::string left_;  // a sentence of the file that made way
+  Workshop<Built> workshop_;
 };
 
 }  // namespace
@@ -200,11 +273,12 @@ void run_live_view(const Options& options) {
   const Interrupt interrupt;
   for (const std::string& refusal : loop.start().refused) std::printf("  note: %s\n", refusal.c_str());
   server->start();
-  announce(*server, "live view");
+  announce(*server, options, "live view");
 
   Director director(entries, builder, stages, watcher, *server, hello, [&] { return loop.is_running(); });
   while (loop.is_running() && !interrupt.has_come()) {
-    if (const std::optional<Wish> wish = wishes.wait_for(std::chrono::milliseconds(50))) director.fulfil(*wish);
+    if (std::optional<Wish> wish = wishes.wait_for(std::chrono::milliseconds(20))) director.begin(std::move(*wish));
+    director.advance();
   }
   loop.stop();
   const ServoReport& report = loop.wait();

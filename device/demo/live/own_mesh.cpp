@@ -2,6 +2,8 @@
 #include "live/own_mesh.hpp"
 
 #include <algorithm>
+#include <cstdio>
+#include <iterator>
 #include <memory>
 #include <utility>
 
@@ -17,18 +19,32 @@ constexpr std::ptrdiff_t most_own_meshes = 6;
 constexpr std::size_t longest_title = 60;
 
 struct Unit {
-  const char* label;
+  const char *id, *label;
   double metres;
 };
-constexpr Unit units[] = {{"in metres", 1.0}, {"in centimetres", 0.01}, {"in millimetres", 0.001}, {"in inches", 0.0254}};
+constexpr Unit units[] = {{"m", "in metres", 1.0}, {"cm", "in centimetres", 0.01}, {"mm", "in millimetres", 0.001}, {"in", "in inches", 0.0254}};
+
+/// Files of parts are in millimetres mostly, and scenes in metres are smaller than one.
+const char* guessed_unit(double width) { return width < 1 ? "m" : "mm"; }
+
+/// Among the units; that of millimetres where there is no such.
+std::ptrdiff_t place_of(const std::string& id) {
+  const auto* const found = std::find_if(std::begin(units), std::end(units), [&](const Unit& unit) { return unit.id == id; });
+  return found == std::end(units) ? 2 : found - std::begin(units);
+}
 
 bool is_own(const GalleryEntry& entry) { return entry.id.rfind(own_mesh_id, 0) == 0; }
 
-MeshReport box_of(const Mesh& mesh) {
-  const Eigen::AlignedBox3d box = scenes::bounds(mesh.vertices, mesh.triangles);
-  MeshReport report;
-  for (std::size_t k = 0; k < 3; ++k) report.lower[k] = (box.min)()[Eigen::Index(k)], report.upper[k] = (box.max)()[Eigen::Index(k)];
-  return report;
+double width_of(const Mesh& mesh) { return scenes::bounds(mesh.vertices, mesh.triangles).sizes().maxCoeff(); }
+
+/// 0.024 as "24 mm".
+std::string length_text(double metres) {
+  constexpr std::pair<double, const char*> steps[] = {{1.0, "m"}, {1e-3, "mm"}, {1e-6, "µm"}};
+  const auto* step = std::begin(steps);
+  while (metres < 0.9995 * step->first && step + 1 != std::end(steps)) ++step;
+  char text[40];
+  std::snprintf(text, sizeof text, "%.*g %s", metres < 999.5 * step->first ? 3 : 6, metres / step->first, step->second);
+  return text;
 }
 
 /// The slender probe of 40 mm suits what is as large as a hand. Around larger things an arm is no longer, so there it grows less.
@@ -42,25 +58,28 @@ ConvexPolytope<double> probe_for(double width) {
 
 LiveScene scene_of(const Mesh& mesh, double metres) {
   Points<double> vertices = metres * mesh.vertices;
-  ConvexPolytope<double> probe = probe_for(metres * box_of(mesh).width());
+  ConvexPolytope<double> probe = probe_for(metres * width_of(mesh));
   return live(scenes::mesh_scene("file", std::move(vertices), mesh.triangles, std::move(probe)));
 }
 
 }  // namespace
 
-GalleryEntry own_mesh_entry(const SentFile& file, int number) {
-  const auto mesh = std::make_shared<const Mesh>(read_mesh_apart(file.bytes, file.name));
+GalleryEntry own_mesh_entry(const SentFile& file, int number, const std::stop_token& stop) {
+  const auto mesh = std::make_shared<const Mesh>(read_mesh_apart(file.bytes, file.name, stop));
   GalleryEntry entry{
       own_mesh_id + std::to_string(number), file.name.substr(0, longest_title), "Your own mesh: drag the probe onto it and slide around.", {}, {}};
   for (const Unit& unit : units) entry.variants.push_back({unit.label, [mesh, metres = unit.metres] { return scene_of(*mesh, metres); }});
-  if (box_of(*mesh).looks_like_millimetres()) std::rotate(entry.variants.begin(), entry.variants.begin() + 2, entry.variants.begin() + 3);
+  const auto place = entry.variants.begin() + place_of(file.unit.empty() ? guessed_unit(width_of(*mesh)) : file.unit);
+  std::rotate(entry.variants.begin(), place, place + 1);
   return entry;
 }
 
-std::string sentence_of(const GalleryEntry& entry, const MeshReport& report) {
-  const std::string& unit = entry.variants.front().label;
-  const char* const why = unit == units[0].label ? "" : ", because it would be wider than 10 m otherwise";
-  return entry.title + ": " + to_string(report) + " Its numbers were taken " + unit + why + "; choose another unit under Which.";
+std::string sentence_of(const SentFile& file, const GalleryEntry& entry, const MeshReport& report) {
+  std::string text = to_string(report);
+  text.erase(text.rfind(" It is "));  // its size in metres, and a guess: both are said better here
+  const auto side = [&](std::size_t k) { return length_text(report.upper[k] - report.lower[k]); };
+  text = entry.title + ": " + text + " Taken as " + side(0) + " × " + side(1) + " × " + side(2) + ", its numbers " + entry.variants.front().label;
+  return text + (file.unit.empty() ? ", which is a guess: another unit can be chosen under Which." : ".");
 }
 
 void put_own_mesh_first(std::vector<GalleryEntry>& gallery, GalleryEntry entry) {

@@ -21,7 +21,8 @@ class RenderedStage final : public Stage {
   using Tool = typename Renderer::Tool;
   using Scalar = typename Renderer::Scalar;
 
-  RenderedStage(StageParts parts, const Tool& tool) : Stage(std::move(parts)), renderer_(mesh(), tool, cast(settings())), fold_(cast(settings())) {
+  RenderedStage(StageParts parts, const Tool& tool)
+      : Stage(std::move(parts)), renderer_(unless_stopped(mesh()), tool, cast(settings())), fold_(cast(settings())) {
     if (renderer_.reset(scene().setting.start.template cast<Scalar>()) == TickStatus::penetrating)
       throw std::invalid_argument("The tool would begin inside the object: give more clearance.");
     fold_.reset(scene().setting.start.template cast<Scalar>(), renderer_.tick().graphic_pose);

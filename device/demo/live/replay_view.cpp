@@ -55,7 +55,7 @@ void run_replay_view(const Options& options) {
   const std::unique_ptr<viewer::Server> server = serve(options, std::move(settings));
   const Interrupt interrupt;
   server->start();
-  announce(*server, "recording");
+  announce(*server, options, "recording");
   const auto end = std::chrono::steady_clock::now() + std::chrono::duration<double>(options.view_seconds.value_or(1e9));
   while (!interrupt.has_come() && std::chrono::steady_clock::now() < end) std::this_thread::sleep_for(std::chrono::milliseconds(50));
 }

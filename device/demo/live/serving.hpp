@@ -13,7 +13,7 @@ namespace feeler::demo {
 /// @throws BadInput where the address or the port cannot be had
 std::unique_ptr<viewer::Server> serve(const Options& options, viewer::ServerSettings settings);
 
-/// Prints the address, and opens it where there is a desktop.
-void announce(const viewer::Server& server, const char* what);
+/// Prints the address, and opens it where there is a desktop. Of a server that listens at every address those are printed that others can open.
+void announce(const viewer::Server& server, const Options& options, const char* what);
 
 }  // namespace feeler::demo

@@ -31,7 +31,7 @@ double reach_of(const scenes::Setting& setting) {
 Stage::Stage(StageParts parts)
     : parts_(std::move(parts)),
       object_(std::make_shared<const TriangleMesh<double>>(scene().setting.vertices, scene().setting.triangles)),
-      watch_(object_, scene().tool, settings().margin),
+      watch_(unless_stopped(object_), scene().tool, settings().margin),
       guide_(scene().setting.start, scene().setting.motion, reach_of(scene().setting), parts_.period),
       phantom_([this](double time) { return guide_.at(time); }, steady_phantom(parts_.period)) {
   phantom_.open();

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <memory>
+#include <stop_token>
 #include <string>
 
 #include "feeler/device/servo_loop.hpp"
@@ -12,6 +13,7 @@
 #include "live/contact_watch.hpp"
 #include "live/hand_guide.hpp"
 #include "live/live_scene.hpp"
+#include "live/workshop.hpp"
 
 namespace feeler::demo {
 
@@ -29,6 +31,7 @@ struct StageParts {
   RenderChoice choice;
   double period = 1e-3;            ///< of a tick [s]
   bool is_on_real_device = false;  ///< which moves the tool instead of the simulated hand
+  std::stop_token stop = {};       ///< of the building, which ends between two steps
 };
 
 /// A scene with all that one tick of it takes. Built outside the servo loop, then handed to it; `read` and
@@ -55,6 +58,12 @@ class Stage {
   ContactWatch& watch() noexcept { return watch_; }  ///< the watcher's
 
  protected:
+  /// What the next step of the building takes.
+  template <class Part>
+  const Part& unless_stopped(const Part& part) const {
+    go_on_unless(parts_.stop);
+    return part;
+  }
   viewer::HandMode mode() const noexcept { return parts_.is_on_real_device ? viewer::HandMode::device : guide_.mode(); }
   std::int64_t missed_ = 0;
 
@@ -67,7 +76,7 @@ class Stage {
   bool has_begun_ = false;
 };
 
-/// @throws std::invalid_argument with a sentence where the scene or the settings cannot be rendered
+/// @throws std::invalid_argument with a sentence where the scene or the settings cannot be rendered, or Abandoned where it is stopped
 std::unique_ptr<Stage> make_stage(StageParts parts);
 
 }  // namespace feeler::demo

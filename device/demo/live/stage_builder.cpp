@@ -6,11 +6,13 @@
 #include "feeler/viewer/wire.hpp"
 #include "live/stage_description.hpp"
 #include "live/tool_choice.hpp"
+#include "live/workshop.hpp"
 
 namespace feeler::demo {
 
-Shown StageBuilder::build(const GalleryEntry& entry, const viewer::SceneRequest& wish) {
+Shown StageBuilder::build(const GalleryEntry& entry, const viewer::SceneRequest& wish, const std::stop_token& stop) {
   LiveScene scene = make_scene(entry, wish.variant, wish.clearance);
+  go_on_unless(stop);
   choose_tool(scene, wish.tool);
   Settings<double> settings = scene.setting.settings();
   if (wish.stiffness) {
@@ -25,7 +27,8 @@ Shown StageBuilder::build(const GalleryEntry& entry, const viewer::SceneRequest&
   }
   const RenderChoice choice{wish.method.empty() ? "closest" : wish.method, wish.scalar.empty() ? "double" : wish.scalar};
   Shown shown;
-  shown.stage = make_stage({++number_, std::move(scene), settings, choice, period_, device_ != nullptr});
+  shown.stage = make_stage({++number_, std::move(scene), settings, choice, period_, device_ != nullptr, stop});
+  go_on_unless(stop);
   const std::string variant = wish.clearance ? "" : wish.variant.empty() ? entry.variants.front().label : wish.variant;
   shown.text = shared_text(stage_text(number_, shown.stage->scene(), {settings, choice},
                                       {entry.id, entry.title, entry.hint, variant, wish.clearance, wish.tool.empty() ? "own" : wish.tool}));

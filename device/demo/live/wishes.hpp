@@ -16,40 +16,30 @@ namespace feeler::demo {
 /// A mesh file from a page.
 struct SentFile {
   std::string name;
+  std::string unit;  ///< of its numbers: "m", "cm", "mm" or "in"; of others it is guessed
   std::string bytes;
 };
 
-using Wish = std::variant<viewer::SceneRequest, SentFile>;
+using Wish = std::variant<viewer::SceneRequest, viewer::CancelRequest, SentFile>;
 
-/// Of scenes the latest one counts; a file waits for its turn.
+/// The latest one counts.
 class Wishes {
  public:
-  void add(viewer::SceneRequest request) {
+  void add(Wish wish) {
     const std::lock_guard lock(mutex_);
-    scene_ = std::move(request);
+    wish_ = std::move(wish);
     has_come_.notify_one();
-  }
-  /// @return whether there was room: one file waits at most
-  bool add(SentFile file) {
-    const std::lock_guard lock(mutex_);
-    if (file_) return false;
-    file_ = std::move(file);
-    has_come_.notify_one();
-    return true;
   }
   std::optional<Wish> wait_for(std::chrono::milliseconds time) {
     std::unique_lock lock(mutex_);
-    has_come_.wait_for(lock, time, [this] { return scene_ || file_; });
-    if (auto file = std::exchange(file_, std::nullopt)) return Wish(*std::move(file));
-    if (auto scene = std::exchange(scene_, std::nullopt)) return Wish(*std::move(scene));
-    return std::nullopt;
+    has_come_.wait_for(lock, time, [this] { return wish_.has_value(); });
+    return std::exchange(wish_, std::nullopt);
   }
 
  private:
   std::mutex mutex_;
   std::condition_variable has_come_;
-  std::optional<viewer::SceneRequest> scene_;
-  std::optional<SentFile> file_;
+  std::optional<Wish> wish_;
 };
 
 }  // namespace feeler::demo

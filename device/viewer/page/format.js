@@ -10,7 +10,9 @@ export function withUnit(value, unit, smallest = 1e-12) {
   return `${Number((value / scale).toPrecision(3))} ${prefix}${unit}`;
 }
 
-export const degrees = (radians) => `${(radians * 180 / Math.PI).toFixed(1)}°`;
+/** 1 tick, 2 ticks. */
+export const counted = (count, one) => `${count.toLocaleString('en')} ${one}${count === 1 ? '' : 's'}`;
+export const degrees = (radians) => `${(radians * 180 / Math.PI).toFixed(2)}°`;
 export const norm = ([x, y, z]) => Math.hypot(x, y, z);
 
 /** The twelve principal contacts of Table 1 of the paper: a short name, words, and the family by which they are coloured. */

@@ -8,6 +8,7 @@ import { flags, sampleIndex, sampleWords } from './protocol.js';
 import { traceSeconds } from './trace.js';
 
 const $ = (id) => document.getElementById(id);
+const workPeriod = 400;  // of building, after which it can be cancelled [ms]
 const fadingPeriod = 0.25;  // between pictures in which nothing but the trace changes [s]
 
 export class LiveSession {
@@ -15,6 +16,7 @@ export class LiveSession {
     this.page = page;
     this.source = new LiveSource({
       hello: (hello) => this.hello(hello), gallery: ({ gallery }) => this.setGallery(gallery), stage: (stage) => this.setStage(stage),
+      work: ({ text }) => this.showWork(text),
       mesh: (mesh) => this.setMesh(mesh), frame: (frame) => this.addFrame(frame), sentence: (type, text) => this.hear(type, text),
       connection: (state) => this.showConnection(state),
     });
@@ -25,7 +27,11 @@ export class LiveSession {
       pointer.turns = !pointer.turns;
       $('finger-turns').setAttribute('aria-pressed', String(pointer.turns));
     };
-    $('show').onclick = () => this.source.playMotion();
+    $('show').onclick = () => {
+      page.player.goLive();
+      this.source.playMotion();
+    };
+    $('cancel').onclick = () => this.cancel();
     $('still').onclick = () => this.source.stopHand();
     $('open-mesh').onchange = ({ target }) => {
       this.openMesh(target.files[0]);
@@ -54,7 +60,9 @@ export class LiveSession {
     this.held.isElsewhere = hello.device !== null;
     document.body.classList.toggle('on-device', hello.device !== null);
     this.invite(hello.device);
+    this.showWork('');
     this.page.timeline.restart(hello.rate);
+    this.page.player.goLive();  // there is no past any more
     this.setGallery(hello.gallery);
   }
 
@@ -64,7 +72,10 @@ export class LiveSession {
   }
 
   choose(request) {
-    if (this.source.choose(request)) return this.page.say('Building the scene …', true);
+    this.upload?.abort();
+    this.upload = null;
+    this.hasChosen = this.source.choose(request);
+    if (this.hasChosen) return undefined;
     this.page.say('The connection is lost: choose again when it is back.');
     return this.showSettings();
   }
@@ -72,10 +83,12 @@ export class LiveSession {
   /** What the program says; where it refuses, the settings are still those of the stage on show. */
   hear(type, text) {
     this.page.say(text);
-    if (type === 'refusal') this.showSettings();
+    if (type !== 'refusal') return;
+    this.hasChosen = false;
+    this.showSettings();
   }
   showSettings() {
-    const { stage } = this.page;
+    const stage = this.waiting?.stage ?? this.page.stage;
     if (stage) showSettings($('settings'), this.greeting, stage, (request) => this.choose(request));
   }
 
@@ -83,16 +96,54 @@ export class LiveSession {
     if (!file) return;
     const { page } = this, most = this.greeting?.largest_file;
     if (file.size > most) return page.say(`${file.name} is too large: ${most / 2 ** 20} MB is the most. Reduce its triangles first, or start the demo with --object.`);
-    page.say(`Opening ${file.name} …`, true);
+    this.upload?.abort();
+    const upload = this.upload = new AbortController();
+    this.hasChosen = true;
+    this.showWork(`Sending ${file.name} …`);
     try {
-      await this.source.sendFile(file);
+      await this.source.sendFile(file, $('unit').value, upload.signal);
     } catch (problem) {
+      if (upload !== this.upload) return undefined;  // something else was chosen
+      this.showWork('');
       page.say(problem.message);
     }
+    return undefined;
+  }
+  cancel() {
+    this.upload?.abort();
+    this.source.cancel();
   }
 
+  /** What is being built, as a sentence; where it takes long it can be cancelled. Empty where nothing is. */
+  showWork(text) {
+    const { page } = this;
+    if (text) page.say(text, true);
+    else if ($('sentence').textContent === this.work) page.say('');
+    if (!text) this.hasChosen = false;
+    this.work = text;
+    clearTimeout(this.workTimer);
+    if (text) this.workTimer = setTimeout(() => this.offerCancel(true), workPeriod);
+    else this.offerCancel(false);
+  }
+  offerCancel(isOffered) {
+    const [cancel, open] = [$('cancel'), $('open-mesh')];
+    const hadFocus = [cancel, open].includes(document.activeElement);
+    cancel.hidden = !isOffered;
+    open.parentElement.hidden = isOffered;
+    if (hadFocus) (isOffered ? cancel : open).focus();
+  }
+
+  /** A stage that somebody else has chosen waits while the past is looked at here. */
   setStage(stage) {
     const { page } = this;
+    if (page.stage && !page.player.isLive && !this.hasChosen) {
+      this.waiting = { stage };
+      markScene($('gallery'), stage.scene);
+      this.showSettings();
+      return page.say(`Another page has chosen ${stage.title}: you still see the past, and Live shows it.`, true);
+    }
+    this.waiting = null;
+    this.source.stage = stage.stage;
     if (page.stage) page.say('');
     const isSameScene = page.stage?.scene === stage.scene;
     page.stage = stage;
@@ -101,10 +152,17 @@ export class LiveSession {
     markScene($('gallery'), stage.scene);
     this.showSettings();
     if (!isSameScene) page.setLook({ ...defaultLook, ...sceneLooks[stage.scene] });
-    page.player.goLive();
+    return page.player.goLive();
+  }
+  catchUp() {
+    const { waiting } = this;
+    if (!waiting) return;
+    this.setStage(waiting.stage);
+    if (waiting.mesh) this.setMesh(waiting.mesh);
   }
 
   setMesh(mesh) {
+    if (this.waiting?.stage.stage === mesh.stage) this.waiting.mesh = mesh;
     if (mesh.stage !== this.page.stage.stage) return;
     this.page.meshBuffer = mesh.buffer;
     this.page.view.setMesh(mesh);

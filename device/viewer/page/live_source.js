@@ -3,12 +3,12 @@ import { readMessage } from './protocol.js';
 
 const patience = [250, 500, 1000, 2000];  // between attempts [ms]
 
-/** Hands on what the server tells, and tells it what the user does. Listeners: hello, gallery, stage, mesh, frame, sentence, connection. */
+/** Hands on what the server tells, and tells it what the user does. Listeners: hello, gallery, stage, work, mesh, frame, sentence, connection. */
 export class LiveSource {
   constructor(listeners) {
     this.listeners = listeners;
     this.attempt = 0;
-    this.stage = 0;
+    this.stage = 0;  // that is meant by what the hand is told
     this.connect();
   }
 
@@ -50,8 +50,7 @@ export class LiveSource {
   }
 
   readText(message) {
-    if (message.type === 'stage') this.stage = message.stage;
-    if (['hello', 'gallery', 'stage'].includes(message.type)) this.listeners[message.type](message);
+    if (['hello', 'gallery', 'stage', 'work'].includes(message.type)) this.listeners[message.type](message);
     else this.listeners.sentence(message.type, message.text ?? message.reason);
   }
 
@@ -74,15 +73,20 @@ export class LiveSource {
   choose(request) {
     return this.send({ type: 'scene', ...request });
   }
-  /** A mesh, to become a scene. @throws Error with a sentence where it is not taken */
-  async sendFile(file) {
+  cancel() {
+    this.send({ type: 'cancel' });
+  }
+  /** A mesh, to become a scene. @param unit  of its numbers; empty to have it guessed  @throws Error with a sentence where it is not taken */
+  async sendFile(file, unit, signal) {
     const url = new URL('/file', location.href);
     url.search = location.search;
     url.searchParams.set('name', file.name);
+    url.searchParams.set('unit', unit);
     let response;
     try {
-      response = await fetch(url, { method: 'POST', body: file });
+      response = await fetch(url, { method: 'POST', body: file, signal });
     } catch {
+      if (signal.aborted) throw new Error(`${file.name} was not opened.`);
       throw new Error(`${file.name} could not be sent: is the connection lost, or the file gone?`);
     }
     if (!response.ok) throw new Error(await response.text());

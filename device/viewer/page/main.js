@@ -6,6 +6,7 @@ import { defaultLook, sceneLooks, showLook } from './panel.js';
 import { Player } from './player.js';
 import { readRecording, writeRecording } from './recording.js';
 import { csvOf, download, pngOf } from './save.js';
+import { counted } from './format.js';
 import { countTicks, Strips } from './strips.js';
 import { Timeline } from './timeline.js';
 
@@ -27,6 +28,9 @@ class Page {
     requestAnimationFrame(() => this.draw());
   }
 
+  get shownPanes() {
+    return this.panes.filter(({ section }) => !section.hidden);
+  }
   get view() {
     return this.panes[0].view;
   }
@@ -50,7 +54,9 @@ class Page {
     addEventListener('dragover', (event) => event.preventDefault());
     addEventListener('drop', (event) => {
       event.preventDefault();
-      this.openFiles([...event.dataTransfer.files]);
+      const folder = [...event.dataTransfer.items].map((item) => item.webkitGetAsEntry?.()).find((entry) => entry?.isDirectory);
+      if (folder) this.say(`${folder.name} is a folder: drop the file that is in it.`);
+      else this.openFiles([...event.dataTransfer.files]);
     });
     for (const pane of this.panes) pane.view.changed = () => (this.isDirty = true);
   }
@@ -77,17 +83,18 @@ class Page {
     if (text && !stays) this.sentenceTimer = setTimeout(() => ($('sentence').hidden = true), Math.max(6000, 60 * text.length));
   }
 
-  makePlayer(isReplay) {
+  makePlayer(timeline, isReplay) {
     const elements = Object.fromEntries(['pause', 'live', 'back', 'forth', 'clock', 'speed'].map((id) => [id, $(id)]));
-    this.player = new Player(this.timeline, { ...elements, slider: $('time') }, isReplay);
+    this.player = new Player(timeline, { ...elements, slider: $('time') }, isReplay);
     this.player.onChange = () => {
       this.areStripsOld = true;
+      if (this.player.isLive) this.live?.catchUp();
       this.showMoment();
     };
   }
 
   goLive() {
-    this.makePlayer(false);
+    this.makePlayer(this.timeline, false);
     this.live = new LiveSession(this);
   }
 
@@ -100,7 +107,7 @@ class Page {
     this.timeline = this.recordings[0].timeline;
     if (this.recordings.length === 2 && this.panes.length === 1) this.addPane();
     $('second').hidden = this.recordings.length < 2;
-    this.makePlayer(true);
+    this.makePlayer(this.recordings.map(({ timeline }) => timeline).reduce((a, b) => (b.end > a.end ? b : a)), true);
     if (this.live) this.offerWayBack();
     this.recordings.forEach(({ stage, mesh, timeline }, i) => {
       const pane = this.panes[i];
@@ -113,8 +120,9 @@ class Page {
     $('connection').className = 'open';
     $('connection').querySelector('.text').textContent = this.recordings.length === 2 ? 'two recordings' : 'a recording';
     this.setLook({ ...defaultLook, ...sceneLooks[this.stage.scene] });
-    this.strips.window = Math.min(10, Math.max(1, this.timeline.end - this.timeline.begin));
-    this.player.seek(this.timeline.begin);
+    const { begin, end } = this.player.timeline;
+    this.strips.window = Math.min(10, Math.max(1, end - begin));
+    this.player.seek(begin);
   }
 
   /** From recordings to the loop that runs on. */
@@ -171,10 +179,7 @@ class Page {
   }
 
   showMoment() {
-    const isMoving = this.player.isLive || this.player.rate !== 0;
-    this.panes[0].show(this.player.frameIndex, isMoving);
-    const second = this.panes[1];
-    if (second && !$('second').hidden) second.show(second.timeline.frameIndexAt(this.player.cursor), isMoving);
+    for (const pane of this.shownPanes) pane.show(this.player.isLive ? pane.timeline.frames.length - 1 : pane.timeline.frameIndexAt(this.player.cursor));
   }
 
   draw() {
@@ -182,10 +187,10 @@ class Page {
     this.player?.advance();
     if (this.isDirty) {
       this.isDirty = false;
-      for (const pane of this.panes) if (!pane.section.hidden) pane.draw();
+      for (const pane of this.shownPanes) pane.draw();
       this.lastPicture = performance.now();
     } else if (performance.now() - this.lastPicture > restAfter) {
-      for (const pane of this.panes) if (!pane.section.hidden) pane.view.drawAtRest();
+      for (const pane of this.shownPanes) pane.view.drawAtRest();
     }
     const now = performance.now();
     if (this.player && now - this.lastStrips > (this.view.isSlow ? slowStripPeriod : stripPeriod) && (this.player.isLive || this.areStripsOld)) {
@@ -204,20 +209,24 @@ class Page {
   drawStrips() {
     const timelines = this.recordings.length > 0 ? this.recordings.map((recording) => recording.timeline) : [this.timeline];
     this.strips.draw({ timelines, cursor: this.player.cursor, isLive: this.player.isLive, palette: palettes[this.theme] });
+    for (const pane of this.shownPanes) pane.write(this.player.isLive ? pane.timeline.end : this.player.cursor);
     this.player.showTime();
     const { ticks, missed, converged } = countTicks(this.timeline.samples, this.strips.begin, this.strips.end);
-    const lost = this.timeline.latest?.lost ? ` · ${this.timeline.latest.lost} samples lost` : '';
-    $('counts').textContent = `${ticks} ticks · ${missed} missed deadlines · ${ticks ? (100 * converged / ticks).toFixed(1) : '–'} % converged${lost}`;
+    const lost = this.timeline.latest?.lost ? ` · ${counted(this.timeline.latest.lost, 'sample')} lost` : '';
+    $('counts').textContent = `${counted(ticks, 'tick')} · ${missed} missed · ${ticks ? (100 * converged / ticks).toFixed(1) : '–'} % converged${lost}`;
   }
 
   fileName(ending) {
     return `feeler-${this.stage?.scene ?? 'view'}.${ending}`;
   }
   async savePicture() {
-    this.view.render(true);
-    const canvases = [...document.querySelectorAll('#strips canvas')];
-    const palette = palettes[this.theme];
-    download(this.fileName('png'), await pngOf(this.view, canvases, palette, `${this.stage.title} · ${this.panes[0].parts.meta.textContent}`));
+    const views = this.shownPanes.map(({ view }) => view);
+    document.body.classList.add('saving');
+    const ends = views.map((view) => view.drawSharply());
+    const picture = pngOf([document.querySelector('main'), $('strips')], palettes[this.theme].card);
+    document.body.classList.remove('saving');
+    for (const end of ends) end();
+    download(this.fileName('png'), await picture);
   }
   saveRecording() {
     const mesh = this.recordings[0]?.mesh.buffer ?? this.meshBuffer;

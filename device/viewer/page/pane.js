@@ -1,11 +1,10 @@
 // One picture with its words: a stage, its frames, and what is written over it.
 import { Vector3 } from 'three';
-import { countTypes, degrees, norm, withUnit } from './format.js';
+import { counted, countTypes, withUnit } from './format.js';
 import { KeyboardEye } from './keyboard_eye.js';
-import { turnBetween } from './pose.js';
 import { StageView } from './stage_view.js';
+import { readingAt } from './strips.js';
 
-const wordPeriod = 100;  // nobody reads faster, and drawing words is slow where there is no graphics processor [ms]
 const axes = { x: [1, 0, 0], y: [0, 1, 0], z: [0, 0, 1] };
 
 /** Writes rows of a name and a value, and touches only what has changed. */
@@ -24,7 +23,6 @@ export class Pane {
     this.parts = Object.fromEntries([...section.querySelectorAll('[data-part]')].map((part) => [part.dataset.part, part]));
     this.view = new StageView(this.parts);
     this.eye = new KeyboardEye(this.view);
-    this.lastWritten = 0;
   }
 
   setStage(stage) {
@@ -34,24 +32,21 @@ export class Pane {
     this.parts.hint.textContent = stage.hint;
     const variant = stage.variant || (stage.clearance === null ? '' : `clearance ${withUnit(stage.clearance, 'm')}`);
     this.parts.meta.textContent =
-      `${variant} · ${stage.triangles.toLocaleString('en')} triangles · ${stage.stiffness} N/m · margin ${withUnit(stage.margin, 'm')} · ${stage.method}, ${stage.scalar}`;
+      `${variant} · ${counted(stage.triangles, 'triangle')} · ${stage.stiffness} N/m · margin ${withUnit(stage.margin, 'm')} · ${stage.method}, ${stage.scalar}`;
   }
 
-  /** @param isLive  whether the next moment will follow at once */
-  show(index, isLive = false) {
+  show(index) {
     const frame = this.timeline.frames[index];
-    if (!frame) return;
-    this.view.showFrame(frame, this.timeline.frames, index);
-    if (!isLive || performance.now() - this.lastWritten >= wordPeriod) this.write(frame);
+    if (frame) this.view.showFrame(frame, this.timeline.frames, index);
   }
 
-  write(frame) {
-    this.lastWritten = performance.now();
-    const apart = Math.hypot(...frame.haptic.position.map((v, k) => v - frame.graphic.position[k]));
-    const types = countTypes(frame.contacts).map(([{ short }, count]) => (count > 1 ? `${count} ${short}` : short)).join(', ');
+  /** The figures of a time, as the strips have them. */
+  write(time) {
+    const { frame } = this.view;  // none where another stage has just come
+    const read = (id) => readingAt(this.timeline.samples, id, time);
+    const types = countTypes(frame?.contacts ?? []).map(([{ short }, count]) => (count > 1 ? `${count} ${short}` : short)).join(', ');
     const rows = [
-      ['force', withUnit(norm(frame.force), 'N', 1e-4)], ['torque', withUnit(norm(frame.torque), 'N·m', 1e-6)], ['contacts', types || 'none'],
-      ['apart', `${withUnit(apart, 'm', 1e-7)}, ${degrees(turnBetween(frame.haptic, frame.graphic))}`], ['state', frame.status],
+      ['force', read('force')], ['torque', read('torque')], ['contacts', types || 'none'], ['apart', `${read('offset')}, ${read('turn')}`], ['state', frame?.status ?? '–'],
     ];
     setTable(this.parts.readings, rows);
   }

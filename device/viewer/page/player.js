@@ -20,9 +20,6 @@ export class Player {
     this.update();
   }
 
-  get frameIndex() {
-    return this.isLive ? this.timeline.frames.length - 1 : this.timeline.frameIndexAt(this.cursor);
-  }
 
   togglePause() {
     if (this.isLive) this.pauseAt(this.timeline.end);
@@ -51,7 +48,8 @@ export class Player {
     this.update();
   }
   step(frames) {
-    const index = Math.min(Math.max(this.frameIndex + frames, 0), this.timeline.frames.length - 1);
+    const { length } = this.timeline.frames, now = this.isLive ? length - 1 : this.timeline.frameIndexAt(this.cursor);
+    const index = Math.min(Math.max(now + frames, 0), length - 1);
     if (index >= 0) this.pauseAt(this.timeline.frames[index].time);
   }
   goLive() {

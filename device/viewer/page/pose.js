@@ -10,8 +10,3 @@ export function place(object, { position, quaternion }) {
 export function tipOf({ position, quaternion }, local) {
   return local.clone().applyQuaternion(new Quaternion().fromArray(quaternion)).add(new Vector3(...position));
 }
-
-/** Angle from one pose's axes to the other's [rad]. */
-export function turnBetween(a, b) {
-  return new Quaternion().fromArray(a.quaternion).angleTo(new Quaternion().fromArray(b.quaternion));
-}

@@ -205,6 +205,18 @@ export class StageView {
     this.render(true);
   }
 
+  /** As sharp as the screen is, whatever it costs, with all of it in the canvas. @return what goes back to moving pictures */
+  drawSharply() {
+    const { pixels } = this;
+    this.pixels = devicePixelRatio;
+    this.resize();
+    this.render(true);
+    return () => {
+      this.pixels = pixels;
+      this.resize();
+    };
+  }
+
   /** @param isWhole  whether all of it is to be in the canvas, as it must be to be saved */
   render(isWhole = false) {
     const { clientWidth, clientHeight } = this.canvas.parentElement;

@@ -1,6 +1,6 @@
 // Charts of every tick on one axis of time, two histograms, and a cross-hair that reads them all.
 import { flags, sampleIndex } from './protocol.js';
-import { withUnit } from './format.js';
+import { degrees, withUnit } from './format.js';
 
 const column = (name) => (ring, i) => ring.value(i, sampleIndex[name]);
 const length = (x, y, z) => (ring, i) => Math.hypot(ring.value(i, sampleIndex[x]), ring.value(i, sampleIndex[y]), ring.value(i, sampleIndex[z]));
@@ -9,16 +9,23 @@ const length = (x, y, z) => (ring, i) => Math.hypot(ring.value(i, sampleIndex[x]
 export const strips = [
   { id: 'force', title: 'Force', of: length('fx', 'fy', 'fz'), write: (v) => withUnit(v, 'N', 1e-6), least: 0.5 },
   { id: 'torque', title: 'Torque', of: length('tx', 'ty', 'tz'), write: (v) => withUnit(v, 'N·m', 1e-9), least: 2e-3 },
-  { id: 'contacts', title: 'Contacts', of: column('contacts'), write: (v) => v.toFixed(0), least: 4 },
+  { id: 'contacts', title: 'Contacts that hold', of: column('contacts'), write: (v) => v.toFixed(0), least: 4 },
   { id: 'offset', title: 'Hand to tool', of: column('offset'), write: (v) => withUnit(v, 'm', 1e-9), least: 5e-4 },
-  { id: 'turn', title: 'Turned apart', of: column('turn'), write: (v) => `${(v * 180 / Math.PI).toFixed(2)}°`, least: 0.02 },
+  { id: 'turn', title: 'Turned apart', of: column('turn'), write: degrees, least: 0.02 },
   { id: 'tick', title: 'Time of a tick', of: column('compute_us'), write: (v) => `${v.toFixed(1)} µs`, least: 50 },
 ];
 /** What is counted: of the samples that the strips show. */
 export const histograms = [
   { id: 'tick-histogram', title: 'Ticks by time', of: column('compute_us') },
-  { id: 'late-histogram', title: 'Ticks by lateness', of: column('late_us') },
+  { id: 'late-histogram', title: 'Lateness', of: column('late_us') },
 ];
+
+/** The value of a strip at a time, in words: whoever writes one has it from here. */
+export function readingAt(ring, id, time) {
+  const { of, write } = strips.find((strip) => strip.id === id);
+  const i = ring.from(time - 5e-4);
+  return i < ring.count ? write(of(ring, i)) : '–';
+}
 
 const eventColours = { switch: '#8250df', fold: '#d6409f', budget: '#b87400' };
 const decades = [0, 4];  // of a histogram: 1 µs to 10 ms
@@ -103,8 +110,8 @@ export class Strips {
   draw(state) {
     if (!state) return;
     this.last = state;
-    const [first] = state.timelines;
-    this.end = state.isLive ? first.end : Math.min(Math.max(state.cursor + this.window / 2, first.begin + this.window), Math.max(first.end, first.begin + this.window));
+    const begin = Math.min(...state.timelines.map((timeline) => timeline.begin)), end = Math.max(...state.timelines.map((timeline) => timeline.end));
+    this.end = state.isLive ? end : Math.min(Math.max(state.cursor + this.window / 2, begin + this.window), Math.max(end, begin + this.window));
     this.begin = this.end - this.window;
     for (const strip of strips) this.drawStrip(strip, state);
     for (const histogram of histograms) this.drawHistogram(histogram, state);
@@ -132,14 +139,8 @@ export class Strips {
     });
     const at = this.hover === null ? (isLive ? null : cursor) : this.timeAt(this.hover);
     if (at !== null) this.drawCursor(context, (at - this.begin) / (this.end - this.begin) * width, height, palette);
-    setText(output, timelines.map(({ samples }) => this.read(samples, strip, at ?? this.end)).join(' · '));
+    setText(output, timelines.map(({ samples }) => readingAt(samples, strip.id, at ?? this.end)).join(' · '));
     this.writeScale(context, strip.write(top / 1.08), palette);
-  }
-
-  read(ring, { of, write }, time) {
-    if (ring.count === 0) return '–';
-    const i = Math.min(Math.max(ring.from(time - 5e-4), 0), ring.count - 1);
-    return write(of(ring, i));
   }
 
   drawGrid(context, width, height, palette) {

@@ -1,6 +1,8 @@
 // One connection of HTTP: it is judged, then answered, becomes a WebSocket, or brings a file. A part of server.cpp.
 #pragma once
 
+#include <algorithm>
+#include <chrono>
 #include <cstdint>
 
 #include <boost/optional.hpp>
@@ -29,7 +31,7 @@ class Connection final : public std::enable_shared_from_this<Connection> {
 
   static constexpr std::string_view socket_path = "/live";
   static constexpr auto patience = std::chrono::seconds(20);        // with a request that does not end
-  static constexpr auto file_patience = std::chrono::seconds(120);  // with a file
+  static constexpr double slowest_file = 5e4;                       // [bytes/s], on an average
   static constexpr std::size_t longest_header = 8192;               // [bytes]
   static constexpr int most_files = 2;                              // on the way at once
 
@@ -47,6 +49,8 @@ class Connection final : public std::enable_shared_from_this<Connection> {
 
   void answer() {
     const auto& request = parser_->get();
+    for (const auto field : {http::field::host, http::field::origin})  // another reader might believe the other one
+      if (request.count(field) > 1) return refuse({400, "This request names two hosts or two origins."});
     const bool is_upgrade = websocket::is_upgrade(request);
     const Verdict verdict = shared_->gate.judge(
         {view(request.method_string()), view(request.target()), view(request[http::field::host]), view(request[http::field::origin]), is_upgrade});
@@ -70,15 +74,31 @@ class Connection final : public std::enable_shared_from_this<Connection> {
     if (!shared_->settings.on_file) return refuse({404, "No file is taken here."});
     if (shared_->files_on_the_way >= most_files) return refuse({503, "Other files are on the way: send this one again."});
     ++shared_->files_on_the_way;
-    stream_.expires_after(file_patience);
-    http::async_read(stream_, buffer_, *parser_, [self = shared_from_this()](Error error, std::size_t) {
-      --self->shared_->files_on_the_way;
-      if (!self->is_readable(error)) return;
-      auto request = self->parser_->release();
-      const std::string refusal = self->shared_->settings.on_file(query_text(view(request.target()), "name"), std::move(request.body()));
-      if (!refusal.empty()) return self->refuse({400, refusal});
-      self->respond(http::status::accepted, "text/plain; charset=utf-8", "", request.keep_alive());
+    file_begin_ = std::chrono::steady_clock::now();
+    file_bytes_ = 0;
+    read_file({});
+  }
+
+  /// In pieces: a file that stalls or trickles must not keep others out.
+  void read_file(const Error& error) {
+    if (error || parser_->is_done()) {
+      --shared_->files_on_the_way;
+      if (is_readable(error)) hand_on_file();
+      return;
+    }
+    const auto due = file_begin_ + std::chrono::milliseconds(std::int64_t(1e3 * double(file_bytes_) / slowest_file));
+    stream_.expires_at((std::min)(std::chrono::steady_clock::now(), due) + shared_->settings.file_patience);
+    http::async_read_some(stream_, buffer_, *parser_, [self = shared_from_this()](Error problem, std::size_t bytes) {
+      self->file_bytes_ += bytes;
+      self->read_file(problem);
     });
+  }
+
+  void hand_on_file() {
+    auto request = parser_->release();
+    const std::string refusal = shared_->settings.on_file(view(request.target()), std::move(request.body()));
+    if (!refusal.empty()) return refuse({400, refusal});
+    respond(http::status::accepted, "text/plain; charset=utf-8", "", request.keep_alive());
   }
 
   void refuse(const Verdict& verdict) { respond(http::status(unsigned(verdict.status)), "text/plain; charset=utf-8", verdict.reason + "\n", false); }
@@ -110,6 +130,8 @@ class Connection final : public std::enable_shared_from_this<Connection> {
   beast::flat_buffer buffer_;
   boost::optional<http::request_parser<http::string_body>> parser_;  // Beast's own kind of optional
   Response response_;
+  std::chrono::steady_clock::time_point file_begin_;
+  std::size_t file_bytes_ = 0;
 };
 
 }  // namespace feeler::viewer

@@ -86,7 +86,8 @@ PageMessage message_of(const json& message) {
   if (type == "still") return HandRequest{HandMode::still, stage_of(message), {}};
   if (type == "motion") return HandRequest{HandMode::motion, stage_of(message), {}};
   if (type == "scene") return scene_of(message);
-  throw Refused{"The message is of no known type: hand, still, motion or scene."};
+  if (type == "cancel") return CancelRequest{};
+  throw Refused{"The message is of no known type: hand, still, motion, scene or cancel."};
 }
 
 }  // namespace

@@ -106,9 +106,9 @@ Server::~Server() = default;
 void Server::start() { implementation_->start(); }
 unsigned short Server::port() const noexcept { return implementation_->port(); }
 
-std::string Server::url() const {
+std::string Server::url(const std::string& address) const {
   const ServerSettings& settings = implementation_->settings();
-  return "http://" + address_in_url(settings.address) + ':' + std::to_string(port()) + '/' +
+  return "http://" + address_in_url(address.empty() ? settings.address : address) + ':' + std::to_string(port()) + '/' +
          (settings.token.empty() ? "" : "?token=" + settings.token);
 }
 

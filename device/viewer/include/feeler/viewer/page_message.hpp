@@ -22,7 +22,10 @@ struct SceneRequest {
   std::string scalar;               ///< "double" or "float"; empty for double
 };
 
-using PageMessage = std::variant<HandRequest, SceneRequest>;
+/// What is being built is not wanted any more.
+struct CancelRequest {};
+
+using PageMessage = std::variant<HandRequest, SceneRequest, CancelRequest>;
 
 /// The message, or a sentence that says what is wrong with it.
 struct ParsedMessage {

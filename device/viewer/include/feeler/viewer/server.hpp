@@ -1,6 +1,7 @@
 // A small web server on a thread of its own: one page, its files, and a WebSocket for each page that is open.
 #pragma once
 
+#include <chrono>
 #include <functional>
 #include <memory>
 #include <string>
@@ -26,8 +27,10 @@ struct ServerSettings {
   std::function<void(class PageLink& page)> on_open = {};
   /// A text from a page. Returns a sentence for it, or nothing. Unset: every message is refused.
   std::function<std::string(std::string_view text)> on_text = {};
-  /// A file from a page, with its name. Returns a sentence that refuses it, or nothing. Unset: none is taken.
-  std::function<std::string(std::string name, std::string bytes)> on_file = {};
+  /// A file from a page, with the target it was sent to, whose query says what it is. Returns a sentence that refuses it, or nothing. Unset: none
+  /// is taken.
+  std::function<std::string(std::string_view target, std::string bytes)> on_file = {};
+  std::chrono::milliseconds file_patience{5000};  ///< with a file of which nothing comes
   /// Called at a steady rate; returns what all pages are told, or nothing. Unset: never.
   std::function<std::shared_ptr<const std::string>()> on_frame = {};
   double frame_rate = 60;  ///< [Hz]
@@ -59,8 +62,8 @@ class Server {
   void start();
 
   unsigned short port() const noexcept;
-  /// Of the page, with the token.
-  std::string url() const;
+  /// Of the page, with the token. @param address  another one at which it is reached; empty for the one that it listens at
+  std::string url(const std::string& address = {}) const;
 
   /// Tells all pages that are open; from any thread.
   void broadcast_text(std::shared_ptr<const std::string> text);
