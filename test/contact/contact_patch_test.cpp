@@ -13,6 +13,7 @@
 #include "feeler/tool/round_solids.hpp"
 #include "feeler/tool/tool_incidence.hpp"
 #include "support/random_tools.hpp"
+#include "support/sanitized.hpp"
 
 BOOST_AUTO_TEST_SUITE(contact_patch)
 
@@ -20,6 +21,7 @@ using feeler::ContactPatch;
 using feeler::FeaturePair;
 using feeler::PatchRows;
 using feeler::TriangleMesh;
+using feeler::test::trials_to_run;
 using namespace feeler_test;
 using Box = feeler::Box<double>;
 using Mesh = TriangleMesh<double>;
@@ -424,7 +426,7 @@ BOOST_AUTO_TEST_CASE(shapes_that_touch_have_a_row_as_close_as_they_are) {
   BOOST_TEST_MESSAGE("seed " << seed);
   std::mt19937 bits(seed);
   int touching = 0;
-  for (int i = 0; i < 20000; ++i) {
+  for (int i = 0; i < trials_to_run(20000); ++i) {
     const auto tool = random_hull(bits, 4 + below(bits, 30));
     const Eigen::Matrix3d corners = triangle_near(tool, bits, Shape::ordinary, magnitude(bits, -10, -8));
     const Found found = find(tool, mesh_of({corners.col(0), corners.col(1), corners.col(2)}, {{0, 1, 2}}), 0, {}, true);
@@ -434,7 +436,7 @@ BOOST_AUTO_TEST_CASE(shapes_that_touch_have_a_row_as_close_as_they_are) {
     for (const auto& row : found.rows) least = std::min(least, row.gap);
     BOOST_TEST(least <= 1.01 * found.distance + 3e-9);  // where two features hardly differ either will do
   }
-  BOOST_TEST(touching > 1000);
+  BOOST_TEST(touching > trials_to_run(1000));
 }
 
 BOOST_AUTO_TEST_CASE(the_rows_of_any_pair_are_separations_that_are_true_at_the_pose) {

@@ -7,11 +7,14 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <variant>
 
 #include "scenes/cavity.hpp"
 #include "scenes/steps.hpp"
+#include "scenes/sulcus.hpp"
 #include "scenes/terrain.hpp"
 #include "support/rendering.hpp"
+#include "support/tick_allocations.hpp"
 
 BOOST_AUTO_TEST_SUITE(candidate_contacts)
 
@@ -41,26 +44,25 @@ struct Comparison {
 };
 
 /// Runs a scene with the method and with the default one.
-template <CandidateOptions options>
+template <CandidateOptions options, class Tool = Box<double>>
 Comparison compare(const scenes::Scene& scene, int ticks) {
   const TriangleMesh<double> object(scene.vertices, scene.triangles);
-  return with_tool_of(scene, [&](const auto& tool) {
-    auto renderer = renderer_for<options>(object, tool, scene.settings());
-    HapticRenderer reference(object, tool, scene.settings());
-    const Witness witness(scene.vertices, scene.triangles, tool);
-    renderer.reset(scene.start);
-    reference.reset(scene.start);
-    Comparison result;
-    for (int i = 1; i <= ticks; ++i) {
-      const Pose<double> haptic = scene.motion(i * 1e-3);
-      const auto& tick = renderer.update(haptic);
-      BOOST_TEST(is_valid(tick, object.triangle_count()));
-      result.farthest = std::max(result.farthest, pose_error(reference.update(haptic).graphic_pose, tick.graphic_pose).at(0.02));
-      result.converged += tick.converged() ? 1 : 0;
-      if (i % 5 == 0) result.deepest = std::max(result.deepest, witness.depth_at(tick.graphic_pose));
-    }
-    return result;
-  });
+  const auto& tool = std::get<Tool>(scene.tool);
+  auto renderer = renderer_for<options>(object, tool, scene.settings());
+  HapticRenderer reference(object, tool, scene.settings());
+  const Witness witness(scene.vertices, scene.triangles, tool);
+  renderer.reset(scene.start);
+  reference.reset(scene.start);
+  Comparison result;
+  for (int i = 1; i <= ticks; ++i) {
+    const Pose<double> haptic = scene.motion(i * 1e-3);
+    const auto& tick = renderer.update(haptic);
+    BOOST_TEST(is_valid(tick, object.triangle_count()));
+    result.farthest = std::max(result.farthest, pose_error(reference.update(haptic).graphic_pose, tick.graphic_pose).at(0.02));
+    result.converged += tick.converged() ? 1 : 0;
+    if (i % 5 == 0) result.deepest = std::max(result.deepest, witness.depth_at(tick.graphic_pose));
+  }
+  return result;
 }
 
 }  // namespace
@@ -160,7 +162,7 @@ BOOST_AUTO_TEST_CASE(a_cube_pushed_flat_onto_a_plate_or_dragged_over_it_stays_on
 }
 
 BOOST_AUTO_TEST_CASE(with_the_certificate_a_line_lands_on_a_ridge_and_passes_on_to_the_face_like_by_default) {
-  const Comparison found = compare<certified>(scenes::steps(), 410);
+  const Comparison found = compare<certified, Segment<double>>(scenes::steps(), 410);
   BOOST_TEST(found.farthest < 2e-5);
   BOOST_TEST(found.deepest <= touching_depth);
 }
@@ -218,6 +220,22 @@ BOOST_AUTO_TEST_CASE(every_choice_leaves_valid_output_and_counts_what_it_drops) 
   }
   BOOST_TEST(dropped > 0);  // on the terrain there are more combinations than fit
 }
+
+#if FEELER_TEST_COUNTS_ALLOCATIONS
+BOOST_AUTO_TEST_CASE(a_tick_allocates_nothing) {
+  BOOST_TEST(feeler_test::count_works());
+  for (const auto& scene :
+       {scenes::cavity(1e-3), scenes::cavity(0), scenes::steps(), scenes::steps_with_prism(), scenes::terrain(71), scenes::sulcus()}) {
+    BOOST_TEST_CONTEXT(scene.name) {
+      const TriangleMesh<double> object(scene.vertices, scene.triangles);
+      with_tool_of(scene, [&](const auto& tool) {
+        contact_ticks_without_allocation(renderer_for<as_written>(object, tool, scene.settings()), scene, 150);
+        contact_ticks_without_allocation(renderer_for<certified>(object, tool, scene.settings()), scene, 150);
+      });
+    }
+  }
+}
+#endif
 
 BOOST_AUTO_TEST_CASE(float_and_long_double_follow_too) {
   const auto scene = scenes::cavity(1e-3);

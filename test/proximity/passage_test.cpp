@@ -9,12 +9,14 @@
 
 #include "feeler/tool/point.hpp"
 #include "support/random_motions.hpp"
+#include "support/sanitized.hpp"
 
 BOOST_AUTO_TEST_SUITE(passage)
 
 using feeler::Clearance;
 using feeler::PassedTriangle;
 using feeler::test::CheckedTool;
+using feeler::test::trials_to_run;
 using feeler::test::WideReal;
 using feeler::test::WideTool;
 using feeler::test::WideTriangle;
@@ -151,7 +153,8 @@ Scene<Tool> random_scene(std::mt19937& bits, const Tool& tool, Kind kind) {
 }
 
 template <class MakeTool>
-void check_kind(unsigned seed, int count, Kind kind, const MakeTool& make_tool) {
+void check_kind(unsigned seed, int full_count, Kind kind, const MakeTool& make_tool) {
+  const int count = trials_to_run(full_count);
   BOOST_TEST_MESSAGE("seed " << seed);
   std::mt19937 bits(seed);
   Tally tally;

@@ -12,6 +12,7 @@
 
 #include "support/allocation_count.hpp"
 #include "support/random_motions.hpp"
+#include "support/sanitized.hpp"
 
 BOOST_AUTO_TEST_SUITE(sweep)
 
@@ -21,6 +22,7 @@ using feeler::PlaneCache;
 using feeler::Sweep;
 using feeler::TriangleMesh;
 using feeler::test::CheckedObject;
+using feeler::test::trials_to_run;
 using feeler::test::WideReal;
 using feeler::test::WideTool;
 using namespace feeler_test;
@@ -439,7 +441,7 @@ BOOST_AUTO_TEST_CASE(what_is_near_a_standing_tool_is_noticed_or_lies_behind_the_
   const auto surface = std::make_unique<feeler::WallPlanes<double>>();
   surface->clear();
   int noticed_in_all = 0, hidden = 0, empty = 0;
-  for (int i = 0; i < 4000; ++i) {
+  for (int i = 0; i < trials_to_run(4000); ++i) {
     const Box tool = random_box(bits);
     RandomMotion<Box> random(bits, tool);
     random.motion = {};
@@ -515,9 +517,9 @@ BOOST_AUTO_TEST_CASE(what_is_near_a_standing_tool_is_noticed_or_lies_behind_the_
     }
   }
   BOOST_TEST_MESSAGE(noticed_in_all << " noticed, " << hidden << " behind others, nothing at " << empty << " poses");
-  BOOST_TEST(noticed_in_all > 1000);
-  BOOST_TEST(hidden > 100);
-  BOOST_TEST(empty > 100);
+  BOOST_TEST(noticed_in_all > trials_to_run(1000));
+  BOOST_TEST(hidden > trials_to_run(100));
+  BOOST_TEST(empty > trials_to_run(100));
 }
 
 BOOST_AUTO_TEST_SUITE_END()

@@ -1,19 +1,15 @@
 // A tick allocates nothing, and the count would show it.
 #include <boost/test/unit_test.hpp>
 
-#include <cmath>
 #include <cstdint>
-#include <type_traits>
 
-#include "feeler/paper/candidate_contacts.hpp"
 #include "feeler/render/wrench_derivative.hpp"
 #include "scenes/cavity.hpp"
 #include "scenes/spline.hpp"
 #include "scenes/steps.hpp"
 #include "scenes/sulcus.hpp"
 #include "scenes/terrain.hpp"
-#include "support/allocation_count.hpp"
-#include "support/rendering.hpp"
+#include "support/tick_allocations.hpp"
 
 BOOST_AUTO_TEST_SUITE(allocation)
 
@@ -23,44 +19,15 @@ using namespace feeler::test;
 #if FEELER_TEST_COUNTS_ALLOCATIONS
 BOOST_AUTO_TEST_CASE(a_tick_allocates_nothing_and_the_count_would_show_it) {
   BOOST_TEST(feeler_test::count_works());
-  const auto check = [](const scenes::Scene& scene) {
+  for (const auto& scene :
+       {scenes::cavity(1e-3), scenes::cavity(0), scenes::steps(), scenes::steps_with_prism(), scenes::terrain(71), scenes::sulcus()}) {
     BOOST_TEST_CONTEXT(scene.name) {
       const TriangleMesh<double> object(scene.vertices, scene.triangles);
       with_tool_of(scene, [&](const auto& tool) {
-        const auto run = [&](auto renderer, int ticks) {
-          int contact_ticks = 0;
-          std::int64_t allocations = 0;
-          for (const auto& motion : {scene.motion, scenes::hostile(scene.motion, 5)}) {
-            BOOST_TEST((renderer.reset(scene.start) == Status::converged));
-            for (int i = 0; i < ticks; ++i) {
-              const Pose<double> haptic = motion(i * 1e-3);
-              allocations += feeler_test::allocations_during([&] { renderer.update(haptic); });
-              contact_ticks += !renderer.tick().contacts.empty();
-            }
-            allocations += feeler_test::allocations_during([&] {
-              renderer.reset(scene.start);
-              renderer.update({Vector3<double>::Constant(std::nan("")), Quaternion<double>::Identity()});
-            });
-          }
-          BOOST_TEST(allocations == 0);
-          return contact_ticks;
-        };
-        BOOST_TEST(run(HapticRenderer(object, tool, scene.settings()), 1500) > 20);
-        using Tool = std::remove_cvref_t<decltype(tool)>;
-        const auto candidates = [&](auto method) {
-          return HapticRenderer<Tool, DualActiveSet<double>, decltype(method)>(object, tool, scene.settings());
-        };
-        run(candidates(CandidateContacts<>{}), 150);
-        run(candidates(CandidateContacts<CandidateOptions{.collision_detection = CollisionDetection::certificate}>{}), 150);
+        BOOST_TEST(contact_ticks_without_allocation(HapticRenderer(object, tool, scene.settings()), scene, 1500) > 20);
       });
     }
-  };
-  check(scenes::cavity(1e-3));
-  check(scenes::cavity(0));
-  check(scenes::steps());
-  check(scenes::steps_with_prism());
-  check(scenes::terrain(71));
-  check(scenes::sulcus());
+  }
 }
 
 BOOST_AUTO_TEST_CASE(a_tick_of_a_tool_of_several_pieces_allocates_nothing) {

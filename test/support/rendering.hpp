@@ -11,22 +11,9 @@
 #include "scenes/round_renderers.hpp"
 #include "scenes/scene.hpp"
 #include "support/penetration_checker.hpp"
+#include "support/sanitized.hpp"
 
 namespace feeler::test {
-
-#if defined(__SANITIZE_ADDRESS__)
-#define FEELER_TEST_SANITIZED 1
-#elif defined(__has_feature)
-#if __has_feature(address_sanitizer) || __has_feature(thread_sanitizer)
-#define FEELER_TEST_SANITIZED 1
-#endif
-#endif
-#ifndef FEELER_TEST_SANITIZED
-#define FEELER_TEST_SANITIZED 0
-#endif
-
-/// Ticks to run: all of them, or a part where a sanitizer makes each of them slow.
-constexpr int ticks_to_run(int count, int part = 10) { return FEELER_TEST_SANITIZED != 0 ? count / part : count; }
 
 /// Whether a motion has the ticks to get where it should: what it must meet on its way is not asked of a part of it.
 constexpr bool runs_all_ticks = FEELER_TEST_SANITIZED == 0;

@@ -14,9 +14,11 @@
 #include "scenes/rotation_between.hpp"
 #include "support/contact_scenes.hpp"
 #include "support/random_tools.hpp"
+#include "support/sanitized.hpp"
 
 BOOST_AUTO_TEST_SUITE(dropped_tool)
 
+using feeler::test::trials_to_run;
 using namespace feeler_test;
 
 using Real = long double;
@@ -334,7 +336,7 @@ void drop(const Tool& tool, std::mt19937& bits, std::map<int, int>& seen, int& t
 BOOST_AUTO_TEST_CASE(dropped_tools_touch_as_clipping_says) {
   std::map<int, int> seen;
   int told = 0, tried = 0;
-  for (unsigned seed = 1; seed <= 5000; ++seed) {
+  for (unsigned seed = 1; seed <= unsigned(trials_to_run(5000)); ++seed) {
     std::mt19937 bits(seed);
     BOOST_TEST_INFO_SCOPE("seed " << seed);
     drop(random_box(bits), bits, seen, told, tried);
@@ -345,7 +347,7 @@ BOOST_AUTO_TEST_CASE(dropped_tools_touch_as_clipping_says) {
   for (const auto& [type, count] : seen) ((summary += ' ') += std::to_string(type) + ':') += std::to_string(count);
   BOOST_TEST_MESSAGE(told << " of " << tried << " drops told, contacts by type" << summary);
   BOOST_TEST(told > tried / 2);
-  for (int type = 1; type <= 12; ++type) BOOST_TEST(seen[type] > 20, "type " << type << " was seen " << seen[type] << " times");
+  for (int type = 1; type <= 12; ++type) BOOST_TEST(seen[type] > trials_to_run(20), "type " << type << " was seen " << seen[type] << " times");
 }
 
 BOOST_AUTO_TEST_SUITE_END()
