@@ -203,7 +203,7 @@ class ClosestFeaturesFollower {
     const Pose<Scalar> end = scene.idle_turns().moved(pose_, trial.motion);
     if (it.came_to_nothing && (is_held || trial.is_at_rest) && !descends_clearly(scene.metric(), off_, off_target(scene, end), scene.margin()))
       return Outcome::arrived;
-    if (it.length <= scene.no_motion()) return trial.is_settled && !trial.is_capped ? Outcome::arrived : Outcome::stalled;
+    if (it.length <= search_.no_motion(scene)) return trial.is_settled && !trial.is_capped ? Outcome::arrived : Outcome::stalled;
     it.came_to_nothing = false;
     it.end = end;
     if (is_descent(scene)) return Outcome::proposed;
@@ -243,9 +243,9 @@ class ClosestFeaturesFollower {
     Iteration& it = iteration_;
     const auto& pairs = linearisation().pairs();
     const int begun = tick.work;
-    const NoticedTriangles noticed =
-        is_resumed ? certificate_.go_on_noticing(scene, tick.work, budget_.limit(), pairs)
-                   : certificate_.notice(scene, it.end, tick.work, budget_.limit(), pairs, Search::reach_of_step(scene, limits_));
+    const NoticedTriangles noticed = is_resumed ? certificate_.go_on_noticing(scene, tick.work, budget_.limit(), pairs)
+                                                : certificate_.notice(scene, it.end, search_.holding_distance(scene), tick.work, budget_.limit(),
+                                                                      pairs, Search::reach_of_step(scene, limits_));
     it.work += tick.work - begun;
     const bool is_done = !noticed.is_exhausted && !take_in_noticed(linearisation().pairs(), scene, noticed);
     const bool is_home = is_done && search_.motion().is_home;

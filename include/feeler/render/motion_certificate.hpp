@@ -66,13 +66,15 @@ class MotionCertificate {
     return run(scene, work, limit, pairs, true);
   }
 
-  /// Triangles that are no pairs and that are nearer than the margin where the last motion certified ended; what rests at the margin is not.
+  /// Triangles that are no pairs and that are nearer than a distance where the last motion certified ended.
   /// Without clearance all walls touch, the certificate tells which of them hold, and nothing is noticed.
-  /// @param pairs  with the planes that parted them there
+  /// @param distance  `RenderedScene::noticed`, or less [m]
+  /// @param pairs     with the planes that parted them there
   template <int pair_capacity>
-  NoticedTriangles notice(const Scene& scene, const Pose<Scalar>& at, int& work, int limit, const WorkingSet<Scalar, pair_capacity>& pairs,
-                          Scalar reach) noexcept {
+  NoticedTriangles notice(const Scene& scene, const Pose<Scalar>& at, Scalar distance, int& work, int limit,
+                          const WorkingSet<Scalar, pair_capacity>& pairs, Scalar reach) noexcept {
     begin(at, {}, reach);
+    noticed_distance_ = distance;
     noticed_ = {};
     return go_on_noticing(scene, work, limit, pairs);
   }
@@ -94,7 +96,7 @@ class MotionCertificate {
         sweep_->work_with(planes_[std::size_t(piece_)], &walls_);
         noticed = sweep_->go_on_noticing(scene.object(), standing, all, work, limit);
       } else {
-        sweep_.emplace(planes_[std::size_t(piece_)], noticing_clearance(scene, standing), &walls_, piece_);
+        sweep_.emplace(planes_[std::size_t(piece_)], noticing_clearance(scene, standing, noticed_distance_), &walls_, piece_);
         noticed = sweep_->notice(scene.object(), standing, all, work, limit);
       }
       is_in_piece_ = noticed.is_exhausted;
@@ -211,9 +213,9 @@ class MotionCertificate {
 
   /// That of what is to be noticed.
   template <class Moving>
-  static Clearance<Scalar> noticing_clearance(const Scene& scene, const Moving& moving) noexcept {
+  static Clearance<Scalar> noticing_clearance(const Scene& scene, const Moving& moving, Scalar distance) noexcept {
     Clearance<Scalar> clearance = scene.clearance_for(moving);
-    clearance.kept = (std::max)(clearance.kept, scene.noticed());
+    clearance.kept = distance;
     return clearance;
   }
 
@@ -232,7 +234,7 @@ class MotionCertificate {
   }
 
   static bool passes(Group& group, const Scene& scene, const MovingTool<Box<Scalar>>& moving, int& work, int limit) noexcept {
-    return Sweep<Box<Scalar>>(group.planes, noticing_clearance(scene, moving)).parts(scene.object(), moving, work, limit);
+    return Sweep<Box<Scalar>>(group.planes, noticing_clearance(scene, moving, scene.noticed())).parts(scene.object(), moving, work, limit);
   }
 
   /// Certifies the piece at hand, or goes on with it.
@@ -270,6 +272,7 @@ class MotionCertificate {
   Scalar first_blocked_ = Scalar(0);  // time
   SweepResult<Scalar> result_;        // of the pieces before
   NoticedTriangles noticed_;          // likewise
+  Scalar noticed_distance_ = Scalar(0);  // what is nearer is noticed
   std::size_t next_group_ = 0;
   int piece_ = 0;
   bool is_in_piece_ = false;  // it is begun

@@ -145,4 +145,14 @@ BOOST_AUTO_TEST_CASE(what_would_be_noticed_again_stays_and_a_filler_leaves_soon)
   BOOST_TEST(set.find(0, 3) == -1);
 }
 
+BOOST_AUTO_TEST_CASE(a_pair_that_was_not_measured_says_nothing_of_the_clearance) {
+  feeler::WorkingSet<double> set;
+  auto& pair = set.add(0, 1, feeler::Matrix3<double>::Zero());
+  BOOST_TEST(!set.has_no_clearance(1e-10));
+  pair.set_plane(feeler::Vector3<double>::UnitZ(), 1e-9);
+  BOOST_TEST(!set.has_no_clearance(1e-10));
+  pair.set_plane(feeler::Vector3<double>::UnitZ(), -1e-13);
+  BOOST_TEST(set.has_no_clearance(1e-10));
+}
+
 BOOST_AUTO_TEST_SUITE_END()

@@ -30,7 +30,7 @@ struct Fit {
     problem.add_row(row, soft);
     rows.add(soft, hard);
   }
-  int solve(double price) { return rows.solve(solver, problem, price, 1e-12, 24, {}, solution); }
+  int solve(double price, int allowed = Elastic::most_solves) { return rows.solve(solver, problem, price, 1e-12, allowed, {}, solution); }
 };
 
 Vector6<double> along(int axis, double sign) {
@@ -64,6 +64,22 @@ BOOST_AUTO_TEST_CASE(a_slot_without_room_for_the_margin_holds_the_tool_in_its_mi
     BOOST_TEST(std::abs(fit.solution.step[2]) < 1e-11);
     BOOST_TEST(fit.rows.relaxation() == 1e-6 - play / 2, boost::test_tools::tolerance(1e-5));
   }
+}
+
+BOOST_AUTO_TEST_CASE(a_search_that_ends_for_want_of_qps_relaxes_by_what_is_surely_enough_and_says_so) {
+  for (const int allowed : {1, 2, 24}) {
+    Fit fit = slot(1e-6, 1e-6, -1e-7);
+    BOOST_TEST(fit.solve(2e-3, allowed) > 0);
+    BOOST_TEST(fit.rows.is_cut_short() == (allowed < 24));
+    BOOST_TEST(fit.rows.relaxation() == 0.5e-6, boost::test_tools::tolerance(1e-5));
+  }
+  // A wall 0.3 mm below where it should give way: what is missing at first is too much.
+  Fit fit;
+  fit.problem.gradient[2] = 1e-3;
+  fit.add(along(2, 1), 5e-4, 0.0);
+  BOOST_TEST(fit.solve(1.2e-3, 1) == 1);
+  BOOST_TEST(fit.rows.is_cut_short());
+  BOOST_TEST(fit.rows.relaxation() == 5e-4, boost::test_tools::tolerance(1e-9));
 }
 
 BOOST_AUTO_TEST_CASE(a_wall_that_costs_more_than_the_price_gives_way_by_what_the_price_is_short) {

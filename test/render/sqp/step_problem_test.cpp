@@ -129,10 +129,34 @@ BOOST_AUTO_TEST_CASE(a_row_that_is_kept_says_that_the_step_rests_on_it_and_is_no
   BOOST_TEST(rests_on_kept(1e-3, 1e-3));
   BOOST_TEST(!rests_on_kept(-1e-3, 1e-3));
   const Displacement<double> down = Twist<double>{{0, 0, -1e-7}, Eigen::Vector3d::Zero()};
-  BOOST_TEST(problem.carry(down, [](const ContactRow<double>&) { return std::optional<Corner::Standing>{Corner::Standing{0.0}}; }));
+  problem.carry(down, [](const ContactRow<double>&) { return std::optional<Corner::Standing>{Corner::Standing{0.0}}; });
   BOOST_TEST(problem.row_count() == 1);
   BOOST_TEST(problem.row(0).gap == 9e-7, boost::test_tools::tolerance(1e-9));
   BOOST_TEST(!rests_on_kept(1e-3, 1e-3));
+}
+
+BOOST_AUTO_TEST_CASE(rows_that_are_not_carried_leave_and_the_others_keep_their_standing) {
+  using Corner = StepProblem<DualActiveSet<double>, 8>;
+  Corner problem;
+  for (int triangle = 0; triangle < 4; ++triangle) {
+    ContactRow<double> row;
+    row.triangle = triangle;
+    row.gap = 1e-6 * (triangle + 1);
+    BOOST_TEST_REQUIRE(problem.add(row, {0.0}));
+  }
+  ContactRow<double> again = problem.row(2);
+  again.triangle = 7;
+  BOOST_TEST(problem.repeats(again));
+  const Displacement<double> down = Twist<double>{{0, 0, -1e-7}, Eigen::Vector3d::Zero()};
+  problem.carry(down, [](const ContactRow<double>& row) {
+    return row.triangle % 2 == 0 ? std::optional<Corner::Standing>{Corner::Standing{0.0}} : std::nullopt;
+  });
+  BOOST_TEST_REQUIRE(problem.row_count() == 2);
+  BOOST_TEST(problem.row(0).triangle == 0);
+  BOOST_TEST(!problem.row(0).is_repeated);
+  BOOST_TEST(problem.row(1).triangle == 2);
+  BOOST_TEST(problem.row(1).is_repeated);
+  BOOST_TEST(problem.row(1).gap == 2.9e-6, boost::test_tools::tolerance(1e-9));
 }
 
 BOOST_AUTO_TEST_CASE(where_there_is_no_room_for_the_margin_both_walls_share_what_there_is_and_overlaps_stay) {

@@ -1,6 +1,8 @@
 // How far the pairs of the working set are apart at one pose, by a plane or by a distance query.
 #pragma once
 
+#include <algorithm>
+
 #include "feeler/core/flatten.hpp"
 #include "feeler/core/scalar.hpp"
 #include "feeler/proximity/gjk.hpp"
@@ -66,6 +68,15 @@ class PairSeparation {
     const Piece& piece = scene.piece(pair.piece);
     const Scalar lowest = lowest_above(piece, scene.reference(), Vector3<Scalar>(axes.transpose() * normal)) - swept_radius(piece);
     return lowest - highest_corner<Scalar>(pair.corners_world.colwise() - pose.translation, normal);
+  }
+
+  /// Whether the planes of pairs, but for those beyond `reach` [m], leave a distance at another pose, or as much of it as they left at the start [m].
+  template <class Pairs>
+  bool keeps(const Scene& scene, const Pairs& pairs, Scalar distance, const Pose<Scalar>& at, Scalar reach, int& work) noexcept {
+    const Matrix3<Scalar> axes = at.rotation.toRotationMatrix();
+    return std::all_of(pairs.begin(), pairs.end(), [&](const Pair& pair) {
+      return pair.is_beyond(reach) || slack_along(scene, pair, pair.normal, at, axes, work) >= (std::min)(distance, pair.slack);
+    });
   }
 
   /// Makes a plane the pair's if it parts the pair where the motion starts by more than a distance.

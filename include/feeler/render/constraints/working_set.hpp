@@ -70,10 +70,10 @@ class WorkingSet {
   const Pair* begin() const noexcept { return pairs_.begin(); }
   const Pair* end() const noexcept { return pairs_.end(); }
   bool full() const noexcept { return pairs_.full(); }
-  /// Whether a pair touches, with a separation below `none` [m]: without clearance all walls do.
+  /// Whether a pair touches, with a separation below `none` [m]: without clearance all walls do. Of pairs that were not measured yet nothing is known.
   bool has_no_clearance(Scalar none) const noexcept {
     for (const Pair& pair : pairs_) {
-      if (pair.slack < none) return true;
+      if (pair.has_plane() && pair.slack < none) return true;
     }
     return false;
   }

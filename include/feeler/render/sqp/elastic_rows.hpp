@@ -48,6 +48,8 @@ class ElasticRows {
 
   /// ξ of the last solution [m].
   Scalar relaxation() const noexcept { return relaxation_; }
+  /// Whether the QPs allowed, fewer than `most_solves`, did not suffice: less relaxation may do.
+  bool is_cut_short() const noexcept { return is_cut_short_; }
   /// Whether a row of the last solution is in conflict.
   bool is_relaxed(int k) const noexcept { return rows_[index(k)].is_relaxed; }
   /// The relaxation that a step of zero needs [m].
@@ -70,9 +72,13 @@ class ElasticRows {
     const int last = (std::min)(allowed, most_solves);
     Search search{.price = price, .least = least, .most = relaxation_at_rest()};
     begin_again(search);
+    is_cut_short_ = false;
     for (int solves = 1; solves <= last; ++solves) {
       const bool is_last = solves == last;
-      if (is_last) relax_all(search.high);
+      if (is_last) {
+        relax_all(search.high);
+        is_cut_short_ = allowed < most_solves;
+      }
       load(problem);
       const QpStatus status = solves == 1 ? solve_from(solver, problem, start, solution) : solver.solve(problem, solution);
       if (status == QpStatus::optimal) {
@@ -256,6 +262,7 @@ class ElasticRows {
 
   int size_ = 0;
   Scalar relaxation_ = Scalar(0);
+  bool is_cut_short_ = false;
   std::array<Row, std::size_t(row_capacity)> rows_;
 };
 

@@ -21,8 +21,7 @@
 
 namespace feeler {
 
-/// The pairs near the tool, linearised where a motion starts, at a certified pose (`start_carried`, `start_measured`), and where its steps end
-/// (`move_to`, `carry_to`).
+/// The pairs near the tool, linearised where a motion starts (`start_carried`, `start_measured`), and where its steps end (`move_to`, `carry_to`).
 ///
 /// A pair that its last plane parts from the tool by some margins is left out, until a step would take the tool across that plane
 /// (`add_crossed`). Of a convex tool, a pair that had no rows of its own is not measured where it lies below the plane of one that has.
@@ -144,23 +143,24 @@ class Linearisation {
     return adds;
   }
 
+  /// As `PairSeparation::keeps`, for all pairs that a step may meet.
+  bool keeps(const Scene& scene, Scalar distance, const Pose<Scalar>& at, int& work) noexcept {
+    return separation_.keeps(scene, pairs_, distance, at, reach_, work);
+  }
   /// Before rows of the start are kept: none is in the problem.
   void release_kept() noexcept { kept_.release(); }
   /// Adds the rows of the start that a motion from there would break; false if it breaks none.
   bool keep_broken(const Scene& scene, const Twist<Scalar>& motion) noexcept {
-    const auto so_far = [&] { return scene.idle_turns().motion_between(start_, separation_.pose()); };
-    return kept_.keep_broken(so_far, motion, scene.margin(), problem_);
+    return kept_.keep_broken([&] { return scene.idle_turns().motion_between(start_, separation_.pose()); }, motion, scene.margin(), problem_);
   }
-  /// Remembers what stopped a step.
-  void remember_stops(const Twist<Scalar>& step) noexcept { stops_.remember(step, problem_); }
-  const auto& stops() const noexcept { return stops_; }
+  /// What stopped the last step that was remembered.
+  auto& stops() noexcept { return stops_; }
   /// Adds what stopped the last step, but for what was assumed, to the rows where it ended; false if they have it all.
   bool keep_stops(const Scene& scene) noexcept {
     return stops_.keep_in(problem_, [&](const Row& row) { return scene.clearance().to_leave(pair_of(row).slack); });
   }
 
-  /// Takes the triangles that the contacts of a solution pass over to into the working set, as far as the work goes: the row of one they have left
-  /// hides them.
+  /// Takes in the triangles that the contacts of a solution pass over to, as far as the work goes: the row of one they have left hides them.
   void learn_passed(const Scene& scene, Tick<MeshScalar>& tick, int limit = unlimited) noexcept {
     std::optional<Displacement<Scalar>> step;
     for (const auto& active : problem_.solution().active) {
@@ -199,13 +199,15 @@ class Linearisation {
     next_pair_ = next_quiet_ = 0;
   }
 
-  /// Moves all rows by a motion; false where `may_carry(row, its pair)` is, or where a pair has left, and others may repeat it.
+  /// Moves all rows by a motion, but for those whose pair has left; false where `may_carry(row, its pair)` is, or where others repeat such a row.
   template <class MayCarry>
   bool carry_rows(const Scene& scene, const Displacement<Scalar>& motion, Tick<MeshScalar>& tick, const MayCarry& may_carry) noexcept {
-    has_rows_ = problem_.carry(motion, [&](const Row& row) -> std::optional<Standing> {
+    has_rows_ = true;
+    problem_.carry(motion, [&](const Row& row) -> std::optional<Standing> {
       const int i = pairs_.find(row.piece, row.triangle);
-      if (i < 0 || !may_carry(row, pairs_[i])) return {};
-      return standing_of(scene, pairs_[i]);
+      if (i >= 0 && may_carry(row, pairs_[i])) return standing_of(scene, pairs_[i]);
+      has_rows_ = has_rows_ && i < 0 && !row.is_repeated;
+      return {};
     });
     tick.rows = problem_.row_count();
     return has_rows_;
@@ -214,12 +216,10 @@ class Linearisation {
   /// False where there is no work left for it.
   bool measure_if_near(const Scene& scene, Pair& pair, Tick<MeshScalar>& tick, int limit) noexcept {
     if (tick.work >= limit) return false;
-    if (separation_.try_own_plane(scene, pair, reach_, tick.work)) {
-      pair.state = PairState::left_out;
-      leaves_out_pairs_ = true;
-    } else {
-      measure(scene, pair, tick);
-    }
+    const bool is_parted = separation_.try_own_plane(scene, pair, reach_, tick.work);
+    leaves_out_pairs_ = leaves_out_pairs_ || is_parted;
+    if (is_parted) pair.state = PairState::left_out;
+    else measure(scene, pair, tick);
     return true;
   }
 

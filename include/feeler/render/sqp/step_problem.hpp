@@ -55,27 +55,25 @@ class StepProblem {
     standings_[index(rows_.size() - 1)] = standing;
     return true;
   }
-  /// Whether a row in the problem asks the same as another.
-  bool repeats(const Row& other) const noexcept {
-    return std::any_of(rows_.begin(), rows_.end(), [&other](const Row& row) { return other.repeats(row); });
+  /// Whether a row in the problem asks the same as another, which is left out for it.
+  bool repeats(const Row& other) noexcept {
+    const auto same = std::find_if(rows_.begin(), rows_.end(), [&other](const Row& row) { return other.repeats(row); });
+    if (same == rows_.end()) return false;
+    return same->is_repeated = true;
   }
-  /// Moves the rows to where a motion from the pose of linearisation ends, less those kept. Where `standing_of(row)` is empty the result is
-  /// false, and the problem is to be cleared.
+  /// Moves the rows to where a motion from the pose of linearisation ends, less those kept and those for which `standing_of(row)` is empty.
   template <class StandingOf>
-  bool carry(const Displacement<Scalar>& motion, const StandingOf& standing_of) noexcept {
+  void carry(const Displacement<Scalar>& motion, const StandingOf& standing_of) noexcept {
     const int count = rows_.size() - kept_;
     int carried = 0;
-    for (; carried < count; ++carried) {
-      Row& row = rows_[carried];
-      row = row.carried(motion);
-      const std::optional<Standing> standing = standing_of(row);
-      if (!standing) break;
-      standings_[index(carried)] = *standing;
+    for (int i = 0; i < count; ++i) {
+      rows_[carried] = rows_[i].carried(motion);
+      const std::optional<Standing> standing = standing_of(rows_[carried]);
+      if (standing) standings_[index(carried++)] = *standing;
     }
     while (rows_.size() > carried) rows_.pop_back();
     kept_ = 0;
     is_solved_ = false;
-    return carried == count;
   }
   /// Appends a row that held where the motion began, to hold where it ends; no other row may follow.
   bool keep(const Row& row, Scalar required_gap) noexcept {
@@ -91,6 +89,10 @@ class StepProblem {
   bool is_solved() const noexcept { return is_solved_; }
   /// Whether the solver found the minimum of the last QP. Where it gave up the step is zero, or as far as it got, and proves nothing.
   bool is_optimal() const noexcept { return is_optimal_; }
+  /// ξ of the last solution [m].
+  Scalar relaxation() const noexcept { return elastic_.relaxation(); }
+  /// Whether the work did not suffice to find the least ξ.
+  bool is_cut_short() const noexcept { return elastic_.is_cut_short(); }
   /// Whether the last solution leaves some of the margin out.
   bool is_relaxed() const noexcept { return elastic_.relaxation() > Scalar(0); }
   /// What the margin that the last step wins is worth, to first order [m²].

@@ -53,6 +53,15 @@ class TrialMotionSearch {
   TrialMotion<Scalar>& motion() noexcept { return motion_; }
   /// Whether the work ran out amid a linearisation, which can go on.
   bool is_measuring() const noexcept { return is_measuring_; }
+  /// What is no motion [m]. Where some of the margin is left out the optimiser finds to a thousandth how much, and a tool at rest trembles by as much.
+  Scalar no_motion(const Scene& scene) const noexcept {
+    return motion_.is_settled && linearisation_.problem().is_relaxed() ? 10 * scene.no_motion() : scene.no_motion();
+  }
+  /// What is nearer where the motion ends may hold the tool there: nearer than the margin, less what the last step had to leave out of it. What rests
+  /// at that distance asks for nothing [m].
+  Scalar holding_distance(const Scene& scene) const noexcept {
+    return (std::max)(scene.noticed() - linearisation_.problem().relaxation(), scene.clearance().none());
+  }
 
   /// @param start  certified
   void begin(const Pose<Scalar>& start, const Pose<Scalar>& aim) noexcept {
@@ -79,9 +88,9 @@ class TrialMotionSearch {
   struct Rounds {
     Pose<Scalar> pose;  // where the next one is
     int count = 0;
-    bool is_measured = false;      // the last one was: not carried
+    bool is_measured = false;  // the last one was: not carried
     bool assumes_valleys = true;
-    bool is_taken_back = false;    // the second step took back the first
+    bool is_taken_back = false;  // the second step took back the first
     Scalar first = 0, previous = 0;  // lengths of steps [m]
   };
 
@@ -124,7 +133,7 @@ class TrialMotionSearch {
     const Scalar longest = limits.longest(linearisation_.is_empty());
     // Where the optimum is flat a step may be of more than a turn, of which a pose would not know the direction.
     if (!motion_.is_capped && last > 2 * longest) leg = step.leg_of(leg.step * (2 * longest / last));
-    linearisation_.remember_stops(leg.step);
+    linearisation_.stops().remember(leg.step, linearisation_.problem());
     rounds_.pose = leg.end;
     motion_.motion = leg.motion;
     if (!motion_.is_capped) motion_.is_free = linearisation_.problem().is_free();
@@ -140,7 +149,7 @@ class TrialMotionSearch {
       motion_.motion = motion_.motion * (longest / length);
       return true;
     }
-    return finish_round(scene, last, length);
+    return finish_round(scene, last, length, tick);
   }
 
   /// With the contacts that the motion would break, and what stopped the last step where this one goes back.
@@ -159,7 +168,7 @@ class TrialMotionSearch {
   /// Notes what is so of the motion after a step; whether that is the last one.
   /// @param last    length of the step [m]
   /// @param length  of the motion so far [m]
-  bool finish_round(const Scene& scene, Scalar last, Scalar length) noexcept {
+  bool finish_round(const Scene& scene, Scalar last, Scalar length, Tick<MeshScalar>& tick) noexcept {
     const auto& problem = linearisation_.problem();
     const bool rests_on_assumption = problem.rests_on_assumption();
     rounds_.assumes_valleys = rounds_.assumes_valleys && !rests_on_assumption;  // with it again, two linearisations would take turns
@@ -168,10 +177,12 @@ class TrialMotionSearch {
     const bool is_short = last < scene.step_tolerance() && (shrinks_fast || last < scene.very_short());
     rounds_.previous = last;
     const bool rests_on_kept = problem.rests_on_kept();
-    motion_.is_home = motion_.is_free && !motion_.is_capped && scene.has_led_to(aim_, rounds_.pose, length);
+    motion_.is_home = motion_.is_free && !motion_.is_capped && !problem.is_cut_short() && scene.has_led_to(aim_, rounds_.pose, length) &&
+                      (rounds_.count > 0 || linearisation_.keeps(scene, holding_distance(scene), rounds_.pose, tick.work));
     motion_.is_taken_back = rounds_.is_taken_back && rests_on_kept && last < scene.very_short() && !motion_.is_capped;
     motion_.goes_back = rests_on_kept && length < rounds_.first / 4 && !motion_.is_capped;
-    motion_.is_settled = (is_short && rounds_.is_measured && !rests_on_assumption && !rests_on_kept && problem.keeps_features()) || motion_.is_home;
+    const bool holds = is_short && rounds_.is_measured && !rests_on_assumption && !rests_on_kept && problem.keeps_features();
+    motion_.is_settled = (holds && !problem.is_cut_short()) || motion_.is_home;
     return motion_.is_settled || motion_.is_capped || (is_short && rests_on_kept);
   }
 
