@@ -4,6 +4,7 @@ target_include_directories(feeler-scene-renderers PUBLIC ${PROJECT_SOURCE_DIR}/b
 target_link_libraries(feeler-scene-renderers PUBLIC feeler::feeler PRIVATE feeler_development)
 if(NOT FEELER_BUILD_TESTS AND NOT FEELER_BUILD_BENCH)
   target_compile_definitions(feeler-scene-renderers PRIVATE FEELER_RENDERERS_OF_THE_DEMO_ALONE)  # a fifth less to compile
+  target_compile_options(feeler-scene-renderers PRIVATE $<$<CONFIG:Release>:-O3>)  # where the ticks are; the demo around them needs no more than -O1
 endif()
 
 # feeler-round-renderers: those of round tools, for what times nothing: tests, the fuzzer, and the programs of the documentation.
