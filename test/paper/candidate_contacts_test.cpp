@@ -223,17 +223,10 @@ BOOST_AUTO_TEST_CASE(every_choice_leaves_valid_output_and_counts_what_it_drops) 
 
 #if FEELER_TEST_COUNTS_ALLOCATIONS
 BOOST_AUTO_TEST_CASE(a_tick_allocates_nothing) {
-  BOOST_TEST(feeler_test::count_works());
-  for (const auto& scene :
-       {scenes::cavity(1e-3), scenes::cavity(0), scenes::steps(), scenes::steps_with_prism(), scenes::terrain(71), scenes::sulcus()}) {
-    BOOST_TEST_CONTEXT(scene.name) {
-      const TriangleMesh<double> object(scene.vertices, scene.triangles);
-      with_tool_of(scene, [&](const auto& tool) {
-        contact_ticks_without_allocation(renderer_for<as_written>(object, tool, scene.settings()), scene, 150);
-        contact_ticks_without_allocation(renderer_for<certified>(object, tool, scene.settings()), scene, 150);
-      });
-    }
-  }
+  in_scenes_whose_ticks_allocate_nothing([](const auto& object, const auto& tool, const auto& scene) {
+    contact_ticks_without_allocation(renderer_for<as_written>(object, tool, scene.settings()), scene, 150);
+    contact_ticks_without_allocation(renderer_for<certified>(object, tool, scene.settings()), scene, 150);
+  });
 }
 #endif
 

@@ -6,9 +6,6 @@
 #include "feeler/render/wrench_derivative.hpp"
 #include "scenes/cavity.hpp"
 #include "scenes/spline.hpp"
-#include "scenes/steps.hpp"
-#include "scenes/sulcus.hpp"
-#include "scenes/terrain.hpp"
 #include "support/tick_allocations.hpp"
 
 BOOST_AUTO_TEST_SUITE(allocation)
@@ -18,16 +15,9 @@ using namespace feeler::test;
 
 #if FEELER_TEST_COUNTS_ALLOCATIONS
 BOOST_AUTO_TEST_CASE(a_tick_allocates_nothing_and_the_count_would_show_it) {
-  BOOST_TEST(feeler_test::count_works());
-  for (const auto& scene :
-       {scenes::cavity(1e-3), scenes::cavity(0), scenes::steps(), scenes::steps_with_prism(), scenes::terrain(71), scenes::sulcus()}) {
-    BOOST_TEST_CONTEXT(scene.name) {
-      const TriangleMesh<double> object(scene.vertices, scene.triangles);
-      with_tool_of(scene, [&](const auto& tool) {
-        BOOST_TEST(contact_ticks_without_allocation(HapticRenderer(object, tool, scene.settings()), scene, 1500) > 20);
-      });
-    }
-  }
+  in_scenes_whose_ticks_allocate_nothing([](const auto& object, const auto& tool, const auto& scene) {
+    BOOST_TEST(contact_ticks_without_allocation(HapticRenderer(object, tool, scene.settings()), scene, 1500) > 20);
+  });
 }
 
 BOOST_AUTO_TEST_CASE(a_tick_of_a_tool_of_several_pieces_allocates_nothing) {

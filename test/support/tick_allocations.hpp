@@ -6,8 +6,12 @@
 #include <cmath>
 #include <cstdint>
 
+#include "scenes/cavity.hpp"
 #include "scenes/motions.hpp"
 #include "scenes/scene.hpp"
+#include "scenes/steps.hpp"
+#include "scenes/sulcus.hpp"
+#include "scenes/terrain.hpp"
 #include "support/allocation_count.hpp"
 #include "support/rendering.hpp"
 
@@ -34,6 +38,19 @@ int contact_ticks_without_allocation(Renderer renderer, const scenes::Scene& sce
   }
   BOOST_TEST(allocations == 0);
   return contact_ticks;
+}
+
+/// Calls `check(object, tool, scene)` for scenes with and without clearance, and with tools of each kind.
+template <class Check>
+void in_scenes_whose_ticks_allocate_nothing(const Check& check) {
+  BOOST_TEST(feeler_test::count_works());
+  for (const auto& scene :
+       {scenes::cavity(1e-3), scenes::cavity(0), scenes::steps(), scenes::steps_with_prism(), scenes::terrain(71), scenes::sulcus()}) {
+    BOOST_TEST_CONTEXT(scene.name) {
+      const TriangleMesh<double> object(scene.vertices, scene.triangles);
+      with_tool_of(scene, [&](const auto& tool) { check(object, tool, scene); });
+    }
+  }
 }
 
 }  // namespace feeler::test
