@@ -137,8 +137,9 @@ long memory() {
 int soak(long ticks) {
   int result = 0;
   for (const char* name : {"cavity_1mm", "wedge_4", "sulcus", "bore_24"}) {
-    const auto scene = study::make_scene(name, 1, 0, 1);
-    const auto player = study::rendering("double").make(scene, {.scene = name});
+    const study::Cell cell{.scene = name};
+    const auto scene = study::make_scene(cell, 1);
+    const auto player = study::rendering("double").make(scene, cell);
     if (player->reset(scene.start) != TickStatus::converged) throw std::runtime_error("the scene starts in penetration");
     const test::CheckedObject object(scene.vertices, scene.triangles);
     const auto tool = test::checked_tool(ConvexPolytope<double>::hull_of(scene.pieces.front()));

@@ -15,6 +15,7 @@
 #include "study/figures.hpp"
 #include "study/figures_of_cell.hpp"
 #include "study/proof.hpp"
+#include "study/scenes.hpp"
 #include "study/sweeps.hpp"
 #include "study/table.hpp"
 #include "study/tables.hpp"
@@ -72,6 +73,8 @@ int list(const std::vector<Cell>& cells, const std::vector<int>& chosen) {
   std::printf("renderings:\n");
   for (const auto& rendering : renderings())
     std::printf("  %-16s %s, %s, %s\n", rendering.name.c_str(), rendering.scalar.c_str(), rendering.solver.c_str(), rendering.method.c_str());
+  std::printf("motions:\n");
+  for (const auto& motion : motions()) std::printf("  %-16s %g times as fast, tremor of %g m\n", motion.name.c_str(), motion.speed, motion.tremor);
   std::printf("sweeps:\n");
   for (const auto& sweep : sweeps()) std::printf("  %-16s %s\n", sweep.name.c_str(), sweep.question.c_str());
   std::printf("cells:\n");
@@ -136,11 +139,12 @@ int main(int argc, char** argv) {
   CLI::App app("feeler-study: what accuracy costs, and what speed: every cell measured against the rigid problem solved in 50 digits",
                "feeler-study");
   app.add_option("--scene", options.selection.scenes, "scenes, by name; all where not given")->delimiter(',');
+  app.add_option("--motion", options.selection.motions, "how the hand goes along the scene's motion, by name; all where not given")->delimiter(',');
   app.add_option("--sweep", options.selection.sweeps, "what is varied, by name; everything where not given")->delimiter(',');
   app.add_option("--rendering", options.selection.renderings, "scalar, QP solver and contact method, by name; all where not given")->delimiter(',');
   app.add_option("--only", options.selection.only, "values of margin, budget, iterations, rate, scale or offset, such as margin=1e-6,1e-5 rate=1000");
   app.add_flag("--quick", options.selection.is_quick, "few values, few scenes and half a second: under two minutes");
-  app.add_flag("--list", options.is_listed, "name renderings, sweeps and the cells of the selection, and end");
+  app.add_flag("--list", options.is_listed, "name renderings, motions, sweeps and the cells of the selection, and end");
   app.add_option("--out", options.out, "folder of study.csv, study_times.csv and the figures; what is there is gone on with");
   app.add_option("--seconds", options.seconds, "length of the motion")->check(feeler::bench::within(0.1, 1000.0));
   app.add_option("--seed", options.seed, "of how generated surfaces are cut");

@@ -9,6 +9,7 @@ namespace feeler::study {
 /// What is chosen; the defaults are the library's.
 struct Cell {
   std::string scene;
+  std::string motion = "usual";  ///< how the hand goes along the scene's motion: one of `motions`
   std::string rendering = "double";  ///< scalar, QP solver and contact method, as one name
   double margin = 1e-6;              ///< [m]
   int budget = 128;                  ///< of work a tick
@@ -20,8 +21,8 @@ struct Cell {
   /// Names the cell in the files and in filters.
   std::string key() const {
     char text[256];
-    std::snprintf(text, sizeof text, "%s/%s/margin=%g/budget=%d/iterations=%d/rate=%d/scale=%g/offset=%g", scene.c_str(), rendering.c_str(), margin,
-                  budget, iterations, rate, scale, offset);
+    std::snprintf(text, sizeof text, "%s/%s/%s/margin=%g/budget=%d/iterations=%d/rate=%d/scale=%g/offset=%g", scene.c_str(), motion.c_str(),
+                  rendering.c_str(), margin, budget, iterations, rate, scale, offset);
     return text;
   }
 };

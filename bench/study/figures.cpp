@@ -108,8 +108,8 @@ Figure sweeps_of(const std::vector<Row>& rows) {
 Figure fronts_of(const std::vector<Row>& rows, const std::vector<Row>& times) {
   std::map<std::string, std::vector<std::pair<double, double>>> by_scene, standard;
   for (const Row& row : rows) {
-    if (!is_measured(row) || text(row, "rendering") != "double" || number(row, "scale") != 1 || number(row, "offset_m") != 0 ||
-        number(row, "rate_hz") != Cell().rate)
+    if (!is_measured(row) || text(row, "rendering") != "double" || text(row, "motion") != Cell().motion || number(row, "scale") != 1 ||
+        number(row, "offset_m") != 0 || number(row, "rate_hz") != Cell().rate)
       continue;
     const double time = number(times_of(row, times), "time_p99_us");
     if (std::isnan(time)) continue;  // no tick was in contact

@@ -31,7 +31,7 @@ double largest_distance(const StudyScene& scene, const Pose<Wide>& a, const Pose
 
 const TruthPath& TruthPaths::of(const StudyScene& scene, const Cell& cell, const Truth& truth, double margin, double kept) {
   constexpr int rate = 4000, most_ticks_held = 100, hopeless = 10;
-  const std::tuple key(cell.scene, cell.scale, cell.offset, margin, kept);
+  const std::tuple key(cell.scene, cell.motion, cell.scale, cell.offset, margin, kept);
   if (const auto found = made_.find(key); found != made_.end()) return found->second;
   TruthPath path;
   Cell unlimited = cell;
@@ -64,7 +64,7 @@ const TruthPath& TruthPaths::of(const StudyScene& scene, const Cell& cell, const
 
 CellFigures figures_of(const Cell& cell, double seconds, unsigned seed, TruthPaths& paths) {
   CellFigures figures;
-  const StudyScene scene = make_scene(cell.scene, cell.scale, cell.offset, seed);
+  const StudyScene scene = make_scene(cell, seed);
   const Truth truth(scene);
   const TruthPath *path = nullptr, *own_path = nullptr;
   std::unique_ptr<Player> player;

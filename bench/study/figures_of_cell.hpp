@@ -36,7 +36,8 @@ class TruthPaths {
 
  private:
   double seconds_;
-  std::map<std::tuple<std::string, double, double, double, double>, TruthPath> made_;  // by scene, scale, offset, margin, distance
+  std::map<std::tuple<std::string, std::string, double, double, double, double>, TruthPath>
+      made_;  // by scene, motion, scale, offset, margin, distance
 };
 
 /// Errors are those of the samples, from the rigid problem, and so the margin is one of them; shares are of one. NaN is what was not measured.

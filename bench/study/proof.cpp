@@ -124,12 +124,12 @@ ProofFigures prove_truth(int cells, unsigned seed, const std::vector<std::string
   compare_with_formulas(bits, figures);
   auto names = scene_names();
   std::erase_if(names, [&](const std::string& name) { return name.starts_with("terrain_1003"); });  // too large to be searched so often
-  for (const std::string& name : only) make_scene(name, 1, 0, seed);
+  for (const std::string& name : only) make_scene({.scene = name}, seed);
   if (!only.empty()) names = only;
   std::map<std::string, Scenery> made;
   for (int i = 0; i < cells; ++i) {
     const std::string name = names[std::size_t(fuzz::below(bits, int(names.size())))];
-    if (!made.contains(name)) made.emplace(name, make_scene(name, 1, 0, seed));
+    if (!made.contains(name)) made.emplace(name, make_scene({.scene = name}, seed));
     const Scenery& scenery = made.at(name);
     const StudyScene& scene = scenery.scene;
     const Truth& truth = scenery.truth;

@@ -39,7 +39,8 @@ bool is_number(const std::string& text) {
 
 /// Columns of text may hold anything, those of counts whole numbers, figures that were not measured nothing, all others numbers.
 bool is_legible(const std::string& column, const std::string& value) {
-  static const std::set<std::string> texts{"scene", "rendering", "scalar", "solver", "method", "study", "commit", "compiler", "processor", "refused"};
+  static const std::set<std::string> texts{"scene", "motion", "rendering", "scalar",    "solver", "method",
+                                           "study", "commit", "compiler",  "processor", "refused"};
   static const std::set<std::string> counts{"cell", "budget", "iterations", "rate_hz", "samples", "samples_without_truth", "solver_samples", "cells"};
   static const std::set<std::string> settings{"margin_m", "scale", "offset_m", "seconds", "seed"};
   if (texts.contains(column)) return true;

@@ -13,12 +13,12 @@ struct RowFile {
 };
 inline constexpr RowFile results_file{
     "study.csv",
-    "cell,scene,rendering,scalar,solver,method,margin_m,budget,iterations,rate_hz,scale,offset_m,samples,samples_without_truth,converged,error_median_m,error_p99_m,"
+    "cell,scene,motion,rendering,scalar,solver,method,margin_m,budget,iterations,rate_hz,scale,offset_m,samples,samples_without_truth,converged,error_median_m,error_p99_m,"
     "error_most_m,solver_samples,solver_error_median_m,solver_error_p99_m,within_0.1um,within_1um,deepest_m,separation_m,force_error_median_n,force_error_p99_n,force_jnd_p99,torque_jnd_p99,jitter_p99_n,lag_s,work_median,"
     "work_p99,work_most,operations_median,operations_p99,seconds,seed,cells,study,commit,compiler,processor,refused"};
 inline constexpr RowFile times_file{
     "study_times.csv",
-    "cell,scene,rendering,margin_m,budget,iterations,rate_hz,scale,offset_m,time_median_us,time_p99_us,time_p99.9_us,time_most_us,study,processor"};
+    "cell,scene,motion,rendering,margin_m,budget,iterations,rate_hz,scale,offset_m,time_median_us,time_p99_us,time_p99.9_us,time_most_us,study,processor"};
 
 /// Rows as they are in the file, by the number of their cell.
 using Lines = std::map<int, std::string>;

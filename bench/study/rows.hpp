@@ -37,8 +37,9 @@ inline const std::array<Choice, 6> choices{{{"margin_m", "margin  [m]", Cell().m
 
 /// Whether all is chosen by default, but for one column.
 inline bool is_standard_but_for(const Row& row, const std::string& column) {
-  return std::all_of(choices.begin(), choices.end(),
-                     [&](const Choice& choice) { return choice.column == column || number(row, choice.column) == choice.standard; });
+  return (column == "motion" || text(row, "motion") == Cell().motion) && std::all_of(choices.begin(), choices.end(), [&](const Choice& choice) {
+           return choice.column == column || number(row, choice.column) == choice.standard;
+         });
 }
 
 /// The row of times of a cell; a row of nothing where it is missing.

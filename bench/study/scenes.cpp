@@ -7,6 +7,7 @@
 #include <random>
 #include <stdexcept>
 #include <type_traits>
+#include <utility>
 #include <variant>
 
 #include "fuzz/laws/prismatic_fits.hpp"
@@ -107,6 +108,23 @@ StudyScene wedge(int cells, std::mt19937& bits) {
   return scene;
 }
 
+/// A hand's tremor at a time, as a share of how far it goes: 8 to 12 Hz, as a hand's is (McAuley and Marsden 2000). It begins with 0.
+Vector tremor(double t) {
+  constexpr double turn = 2 * std::numbers::pi;
+  return {std::sin(turn * 8.3 * t), std::sin(turn * 9.7 * t), std::sin(turn * 11.9 * t)};
+}
+
+scenes::Motion made_by(const HandMotion& hand, scenes::Motion motion) {
+  return [hand, motion = std::move(motion)](double t) {
+    Pose<double> pose = motion(hand.speed * t);
+    if (hand.tremor == 0) return pose;
+    constexpr double turn_for_way = 50;  // [rad/m]: 5 mrad for a tenth of a millimetre
+    pose.translation += hand.tremor * tremor(t);
+    pose.rotation = (exp_rotation(Vector(hand.tremor * turn_for_way * tremor(1.3 * t))) * pose.rotation).normalized();
+    return pose;
+  };
+}
+
 constexpr std::array bore_facets{6, 24, 96};
 constexpr std::array surface_cells{1, 24};
 
@@ -136,10 +154,17 @@ std::vector<std::string> scene_names() {
 
 bool has_several_pieces(const std::string& scene) { return scene.starts_with("spline"); }
 
-StudyScene make_scene(const std::string& name, double scale, double offset, unsigned seed) {
+const std::vector<HandMotion>& motions() {
+  static const std::vector<HandMotion> list{{"usual"}, {"slow", 0.25}, {"quick", 4}, {"trembling", 1, 1e-4}};
+  return list;
+}
+
+StudyScene make_scene(const Cell& cell, unsigned seed) {
   const auto names = scene_names();
-  const auto place = std::find(names.begin(), names.end(), name);
-  if (place == names.end()) throw std::invalid_argument("There is no scene " + name + "; --list names them.");
+  const auto place = std::find(names.begin(), names.end(), cell.scene);
+  if (place == names.end()) throw std::invalid_argument("There is no scene " + cell.scene + "; --list names them.");
+  const auto hand = std::find_if(motions().begin(), motions().end(), [&](const HandMotion& one) { return one.name == cell.motion; });
+  if (hand == motions().end()) throw std::invalid_argument("There is no motion " + cell.motion + "; --list names them.");
   std::mt19937 bits(seed);
   StudyScene scene;
   const auto listed = entries();
@@ -153,12 +178,12 @@ StudyScene make_scene(const std::string& name, double scale, double offset, unsi
   } else {
     scene = wedge(surface_cells[at - surface_cells.size()], bits);
   }
-  scene.name = name;
-  const Vector shift = Vector::Constant(offset);
-  scene.vertices = (scale * scene.vertices).rowwise() + shift.transpose();
-  for (auto& piece : scene.pieces) piece *= scale;
-  scene.length *= scale;
-  scene.motion = [motion = scene.motion, scale, shift](double t) {
+  scene.name = cell.scene;
+  const Vector shift = Vector::Constant(cell.offset);
+  scene.vertices = (cell.scale * scene.vertices).rowwise() + shift.transpose();
+  for (auto& piece : scene.pieces) piece *= cell.scale;
+  scene.length *= cell.scale;
+  scene.motion = [motion = made_by(*hand, scene.motion), scale = cell.scale, shift](double t) {
     Pose<double> pose = motion(t);
     pose.translation = scale * pose.translation + shift;
     return pose;

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "scenes/scene.hpp"
+#include "study/cell.hpp"
 
 namespace feeler::study {
 
@@ -19,10 +20,17 @@ std::vector<std::string> scene_names();
 /// The splines alone are of several pieces: for them no other rendering than the default is compiled.
 bool has_several_pieces(const std::string& scene);
 
-/// @param scale   of all lengths
-/// @param offset  by which object and motion are moved, along each axis alike [m]; coordinates are rounded to double there
-/// @param seed    of how generated surfaces are cut
-/// @throws std::invalid_argument  for a name that is none of `scene_names`
-StudyScene make_scene(const std::string& name, double scale, double offset, unsigned seed);
+/// What a hand makes of a scene's motion, by name; the first is the motion as it is.
+struct HandMotion {
+  std::string name;
+  double speed = 1;   ///< along the scene's motion
+  double tremor = 0;  ///< of the hand about it: so far along each axis [m], and 50 rad/m times that about it
+};
+const std::vector<HandMotion>& motions();
+
+/// The scene of a cell: object and motion are scaled, then moved by the offset along each axis alike; coordinates are rounded to double there.
+/// @param seed  of how generated surfaces are cut
+/// @throws std::invalid_argument  for a scene that is none of `scene_names`, or a motion that is none of `motions`
+StudyScene make_scene(const Cell& cell, unsigned seed);
 
 }  // namespace feeler::study

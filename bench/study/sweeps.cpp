@@ -77,6 +77,12 @@ std::vector<Value> some(bool is_quick, std::initializer_list<Value> all, std::in
 /// Scenes that are moved away and scaled: one of each kind.
 const std::vector<std::string> small_scenes{"bore_24", "plate_2", "wedge_4"};
 
+std::vector<std::string> motion_names() {
+  std::vector<std::string> names;
+  for (const auto& motion : motions()) names.push_back(motion.name);
+  return names;
+}
+
 /// @return the values that are asked for
 Values read(const Selection& selection) {
   std::vector<std::string> known_sweeps;
@@ -84,6 +90,7 @@ Values read(const Selection& selection) {
   check_names("sweep", selection.sweeps, known_sweeps);
   check_names("scene", selection.scenes, scene_names());
   for (const auto& name : selection.renderings) rendering(name);
+  check_names("motion", selection.motions, motion_names());
   Values only;
   for (const auto& text : selection.only) read_only(text, only);
   return only;
@@ -98,6 +105,7 @@ const std::vector<Sweep>& sweeps() {
       {"budget", "what does a unit of work buy?"},
       {"iterations", "what does a linearisation buy?"},
       {"rate", "what does the rate change?"},
+      {"motion", "what does a slow, a quick or a trembling hand change?"},
       {"offset", "how far from the origin does a scalar reach?"},
       {"scale", "for which sizes do the defaults hold?"},
       {"front", "which settings are both faster and more exact?"},
@@ -116,6 +124,7 @@ std::vector<Cell> cells_of(const Selection& selection) {
   std::set<std::string> known;
   const auto add = [&](const Cell& cell) {
     if (!is_among(selection.scenes, cell.scene) || !is_among(selection.renderings, cell.rendering)) return;
+    if (!is_among(selection.motions, cell.motion)) return;
     if (quick && selection.scenes.empty() && !is_among(quick_scenes, cell.scene) && !is_among(small_scenes, cell.scene)) return;
     if (cell.rendering != "double" && has_several_pieces(cell.scene)) return;
     if (!is_among(known_renderings, cell.rendering)) return;
@@ -148,6 +157,9 @@ std::vector<Cell> cells_of(const Selection& selection) {
     }
     if (sweep.name == "rate")
       vary(scenes, some(quick, {250, 500, 1000, 2000, 4000, 10000}, {500, 1000, 4000}), [](Cell& cell, int value) { cell.rate = value; });
+    if (sweep.name == "motion")
+      vary(scenes, quick ? std::vector<std::string>{"usual", "quick"} : motion_names(),
+           [](Cell& cell, const std::string& name) { cell.motion = name; });
     for (const auto& scalar : scalars) {
       if (sweep.name == "offset")
         vary(small_scenes, some<double>(quick, {0, 1, 10, 1e2, 1e3, 1e4, 1e5, 1e6}, {0, 1, 1e3}),
@@ -167,10 +179,10 @@ std::vector<Cell> cells_of(const Selection& selection) {
 }
 
 std::vector<int> groups_of(const std::vector<Cell>& cells) {
-  std::map<std::tuple<std::string, double, double, double>, int> known;
+  std::map<std::tuple<std::string, std::string, double, double, double>, int> known;
   std::vector<int> groups;
   for (const Cell& cell : cells)
-    groups.push_back(known.emplace(std::tuple(cell.scene, cell.scale, cell.offset, cell.margin), int(known.size())).first->second);
+    groups.push_back(known.emplace(std::tuple(cell.scene, cell.motion, cell.scale, cell.offset, cell.margin), int(known.size())).first->second);
   return groups;
 }
 

@@ -16,7 +16,7 @@ const std::vector<Sweep>& sweeps();
 
 /// What is asked for; empty lists ask for all.
 struct Selection {
-  std::vector<std::string> scenes, sweeps, renderings;
+  std::vector<std::string> scenes, motions, sweeps, renderings;
   std::vector<std::string> only;  ///< values of what is a number, such as "margin=1e-6,1e-5"
   bool is_quick = false;  ///< few values and few scenes
 };
@@ -25,7 +25,7 @@ struct Selection {
 /// @throws std::invalid_argument  for a name or a value that there is not
 std::vector<Cell> cells_of(const Selection& selection);
 
-/// A number a cell, the same for those of one scene, size, place and margin: they share their truth, which takes as long as all else, and so a shard.
+/// A number a cell, the same for those of one scene, motion, size, place and margin: they share their truth, which takes as long as all else, and so a shard.
 std::vector<int> groups_of(const std::vector<Cell>& cells);
 
 }  // namespace feeler::study

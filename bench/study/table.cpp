@@ -29,7 +29,9 @@ std::string plain(std::string text) {
   return text;
 }
 
-std::string start_of_row(int number, const Cell& cell) { return std::to_string(number) + "," + cell.scene + "," + cell.rendering + ","; }
+std::string start_of_row(int number, const Cell& cell) {
+  return std::to_string(number) + "," + cell.scene + "," + cell.motion + "," + cell.rendering + ",";
+}
 
 std::string choices(const Cell& cell) {
   char text[160];
@@ -90,7 +92,7 @@ std::string difference(const Row& row, Row expected, const Columns& columns) {
   for (const std::string column : columns) {
     if (row.at(column) == expected[column]) continue;
     if (column != "study") return column + " is " + row.at(column) + " and not " + expected[column];
-    return "the cells, motion or build are others (--scene, --sweep, --rendering, --only, --quick; the renderings that are compiled in)";
+    return "the cells, motion or build are others (--scene, --sweep, --rendering, --motion, --only, --quick; the renderings that are compiled in)";
   }
   return "";
 }

@@ -91,6 +91,11 @@ std::string markdown_tables(const std::filesystem::path& folder) {
     if (is_standard_but_for(row, "") && !has_several_pieces(text(row, "scene")))
       by_rendering.try_emplace(Key(0, text(row, "rendering")), times).first->second.add(row);
   add_table("rendering", by_rendering);
+  std::map<Key, Line> by_motion;
+  for (const Row& row : rows)
+    if (is_standard_but_for(row, "motion") && text(row, "rendering") == Cell().rendering)
+      by_motion.try_emplace(Key(0, text(row, "motion")), times).first->second.add(row);
+  add_table("motion of the hand, `double`", by_motion);
   if (result.empty())
     throw std::runtime_error("In " + (folder / results_file.name).string() +
                              " nothing is varied with all else by default: there is no table to make of it.");

@@ -64,7 +64,7 @@ refuses() {
   refuses 'not of one study: seed is 2 and not 1 in part2/study.csv' --merge part1 part2 part3 --out none
   # As many cells, but others: of another sweep, and of other values of the same one.
   "$study" --quick --scene cavity_1mm,wedge_4 --sweep rate,budget --seconds 0.2 --no-figures --shard 2/3 --out other_cells
-  [ "$(cut -d, -f39 part1/study.csv | tail -n 1)" = "$(cut -d, -f39 other_cells/study.csv | tail -n 1)" ] || fail "as many cells were to be in both"
+  [ "$(cut -d, -f40 part1/study.csv | tail -n 1)" = "$(cut -d, -f40 other_cells/study.csv | tail -n 1)" ] || fail "as many cells were to be in both"
   refuses 'not of one study: the cells, motion or build are others (--scene' --merge part1 other_cells part3 --out none
   cp part3/study.csv other_cells
   refuses 'not of one study.* in other_cells/study_times.csv' --merge part1 part3 other_cells --out none
@@ -89,7 +89,7 @@ refuses() {
 
   # Text where a number belongs.
   mkdir odd
-  awk -F, -v OFS=, 'NR == 4 { $17 = "much" } { print }' whole/study.csv >odd/study.csv
+  awk -F, -v OFS=, 'NR == 4 { $18 = "much" } { print }' whole/study.csv >odd/study.csv
   cp whole/study_times.csv odd
   for what in '--tables' '--figures' "$choose"; do
     refuses "odd/study.csv has in line 4, column error_p99_m, 'much' where" $what --out odd
@@ -128,7 +128,7 @@ for what in --shard=1/1 --tables; do
   "$study" $what --scene bore_24 --sweep scale --rendering double --only scale=0.01,1 --seconds 0.1 --out without_truth --no-figures >said
 done
 grep -q '^| 0.01 | [0-9./ ]* | – .* 1, no truth 1 | 0 to 0 |$' said || fail "no truth was to be told in: $(cat said)"
-[ "$(sed -n 2p without_truth/study.csv | cut -d, -f13,14,16,17,19)" = 0,5,,,0 ] || fail "errors that were not measured were to be left empty"
+[ "$(sed -n 2p without_truth/study.csv | cut -d, -f14,15,17,18,20)" = 0,5,,,0 ] || fail "errors that were not measured were to be left empty"
 
 refuses 'holds no rows' --tables --out empty
 mkdir empty
@@ -141,6 +141,7 @@ refuses 'names other columns' --tables --out whole
 refuses 'names other columns' --sweep margin --scene wedge_4 --out whole
 refuses 'There is no scene cavern' --scene cavern
 refuses 'There is no sweep colour' --sweep colour
+refuses 'There is no motion still; there are: usual slow quick trembling' --motion still
 refuses 'leave no cell' --sweep offset --scene cavity_1mm
 refuses 'such as 2/8' --shard 9/8
 refuses 'such as 2/8' --shard some
