@@ -2,7 +2,6 @@
 #pragma once
 
 #include <algorithm>
-#include <array>
 #include <optional>
 
 #include "feeler/contact/contact_row.hpp"
@@ -46,15 +45,12 @@ class StepProblem {
 
   void clear() noexcept {
     rows_.clear();
+    standings_.clear();
     kept_ = 0;
     is_solved_ = false;
   }
   /// Appends a row; false when there is no room.
-  bool add(const Row& row, const Standing& standing) noexcept {
-    if (!rows_.push_back(row)) return false;
-    standings_[index(rows_.size() - 1)] = standing;
-    return true;
-  }
+  bool add(const Row& row, const Standing& standing) noexcept { return rows_.push_back(row) && standings_.push_back(standing); }
   /// Whether a row in the problem asks the same as another, which is left out for it.
   bool repeats(const Row& other) noexcept {
     const auto same = std::find_if(rows_.begin(), rows_.end(), [&other](const Row& row) { return other.repeats(row); });
@@ -65,13 +61,13 @@ class StepProblem {
   template <class StandingOf>
   void carry(const Displacement<Scalar>& motion, const StandingOf& standing_of) noexcept {
     const int count = rows_.size() - kept_;
-    int carried = 0;
+    standings_.clear();
     for (int i = 0; i < count; ++i) {
-      rows_[carried] = rows_[i].carried(motion);
-      const std::optional<Standing> standing = standing_of(rows_[carried]);
-      if (standing) standings_[index(carried++)] = *standing;
+      Row& row = rows_[standings_.size()];
+      row = rows_[i].carried(motion);
+      if (const std::optional<Standing> standing = standing_of(row)) standings_.push_back(*standing);
     }
-    while (rows_.size() > carried) rows_.pop_back();
+    while (rows_.size() > standings_.size()) rows_.pop_back();
     kept_ = 0;
     is_solved_ = false;
   }
@@ -211,7 +207,7 @@ class StepProblem {
     const Scalar hair = some_tolerances * unit_;
     for (int k = 0; k < rows_.size(); ++k) {
       const Row& row = rows_[k];
-      const Standing& standing = standings_[index(k)];
+      const Standing& standing = standings_[k];
       const bool yields = standing.is_spare && !(standing.required_gap > Scalar(0));
       const Scalar soft = margin - row.gap - (yields ? hair : Scalar(0));
       problem_.add_row(row.gradient(), soft);
@@ -274,7 +270,7 @@ class StepProblem {
   bool is_newton_ = true;
   FixedVector<Row, row_capacity> rows_;
   int kept_ = 0;  // of them, at the end
-  std::array<Standing, std::size_t(row_capacity)> standings_;
+  FixedVector<Standing, row_capacity> standings_;  // of each row
   ElasticRows<Scalar, row_capacity> elastic_;
   Scalar unit_;
   Scalar price_ = Scalar(0);  // of the margin, in the unit of multipliers
