@@ -51,6 +51,7 @@ struct Found {
   bool has_rows = false;
   PatchRows<double> rows;
   double distance = 0;
+  bool is_ghost = false;
   int nearer = -1;  // the triangle that the patch names
   std::vector<int> continuations;  // those that it visits, of a plane nearer than `in_touch`
 
@@ -73,6 +74,7 @@ Found find(const Tool& tool, const Mesh& mesh, int triangle, const feeler::Pose<
   ContactPatch<Tool, double> patch(tool, incidence, mesh, axes, reference, band, assumes_valleys, near);
   Found found;
   found.has_rows = patch.find(triangle, corners, closest, keep_ghost, found.rows);
+  found.is_ghost = patch.is_ghost();
   found.distance = closest.distance;
   found.nearer = patch.nearer_triangle(closest);
   patch.visit_continuations(in_touch, [&](int continuation) { found.continuations.push_back(continuation); });
@@ -372,7 +374,7 @@ BOOST_AUTO_TEST_CASE(a_neighbour_in_the_same_plane_gives_no_row_that_holds_the_t
   constexpr unsigned seed = 2;
   BOOST_TEST_MESSAGE("seed " << seed);
   std::mt19937 bits(seed);
-  int ghosts = 0, kept = 0;
+  int ghosts = 0, kept = 0, ghosts_with_rows = 0;
   for (int i = 0; i < 2000; ++i) {
     // About the diagonal, a little above the floor: flat, on an edge or on a vertex.
     const double s = 0.5 * unit(bits), off = 0.06 * unit(bits);
@@ -387,9 +389,14 @@ BOOST_AUTO_TEST_CASE(a_neighbour_in_the_same_plane_gives_no_row_that_holds_the_t
       BOOST_TEST(found.has_rows == !found.rows.empty());
       for (const auto& row : found.rows)
         if (row.gap < 1e-4) BOOST_TEST((row.normal - Vector::UnitZ()).norm() < 1e-5);
+      // A neighbour that is nearer is told of, whether or not the triangle has rows of other vertices.
+      const double nearer_by = found.distance - find(box, mesh, 1 - triangle, pose).distance;
+      if (nearer_by > 1e-9) BOOST_TEST(found.is_ghost);
+      if (found.is_ghost) BOOST_TEST(nearer_by > 0);
+      if (found.is_ghost) BOOST_TEST(found.nearer == 1 - triangle);
+      ghosts_with_rows += found.is_ghost && found.has_rows ? 1 : 0;
       if (found.has_rows) continue;
       ++ghosts;
-      BOOST_TEST(found.nearer == 1 - triangle);
       const Found asked = find(box, mesh, triangle, pose, true);
       BOOST_TEST(asked.has_rows);
       BOOST_TEST(asked.rows.size() == 1);
@@ -398,6 +405,7 @@ BOOST_AUTO_TEST_CASE(a_neighbour_in_the_same_plane_gives_no_row_that_holds_the_t
   }
   BOOST_TEST(ghosts > 200);
   BOOST_TEST(kept == ghosts);
+  BOOST_TEST(ghosts_with_rows > 5);
 }
 
 BOOST_AUTO_TEST_CASE(the_neighbour_of_a_ghost_that_the_patch_names_is_nearer) {

@@ -68,7 +68,7 @@ class ContactPatch {
   /// Rows of a triangle with the closest points given; false when it had none but a ghost and that was left out.
   FEELER_FLATTEN bool find(int triangle, const Matrix3<Scalar>& corners, const ClosestPoints<Scalar>& closest, bool keep_ghost, Rows& rows) noexcept {
     rows.clear();
-    is_filler_ = false;
+    is_filler_ = is_ghost_ = false;
     surface_.stand_on(triangle);
     using std::abs;
     normal_ = closest.normal;
@@ -89,6 +89,7 @@ class ContactPatch {
     if (is_met || (closest.is_touching && closest.distance < -lengths_.seam && !rows.empty())) return true;
     if (!near_.empty() && surface_.is_inside_wall()) return true;
     if (!keep_ghost && !is_in_cone(closest)) {
+      is_ghost_ = true;
       if (assumes_valleys_) add_concave_face(closest, rows);
       return !rows.empty();
     }
@@ -105,6 +106,8 @@ class ContactPatch {
 
   /// Whether the only row is that of the closest points, in the triangle's own plane: other triangles of its wall hold the tool as well.
   bool is_filler() const noexcept { return is_filler_; }
+  /// Whether the closest points are a ghost: a neighbour is nearer to the tool, though the triangle may have rows of its own.
+  bool is_ghost() const noexcept { return is_ghost_; }
   /// After `find`: calls `visit(triangle)` for each triangle in the plane of this one, beside it, that is under a tool vertex no farther from that
   /// plane than `gap` [m]: it holds that vertex. Some are visited more than once.
   template <class Visit>
@@ -253,7 +256,7 @@ class ContactPatch {
 
   const Tool& tool_;
   Matrix3<Scalar> world_from_tool_;
-  bool is_filler_ = false;  // see `is_filler()`
+  bool is_filler_ = false, is_ghost_ = false;  // see `is_filler()`, `is_ghost()`
   PatchLengths<Scalar> lengths_;
   bool assumes_valleys_;
   PatchRowMaker<Tool> maker_;

@@ -43,7 +43,7 @@ class NeighbourQueue {
     const auto bring = [&](int triangle, const WitnessFeatures& features) {
       if (pairs.find(pair.piece, triangle) < 0) waiting_.push_back({pair.piece, triangle, features});
     };
-    if (pair.state == PairState::ghost && closest.distance < scene.contact_distance()) {
+    if (patch.is_ghost() && closest.distance < scene.contact_distance()) {
       const int nearer = patch.nearer_triangle(closest);
       if (nearer >= 0) bring(nearer, pair.features);
     }
