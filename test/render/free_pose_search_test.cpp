@@ -63,6 +63,18 @@ ClosedMesh ground(int n) {
   return mesh;
 }
 
+/// The longest way of a tool point between two poses [m].
+template <class Tool>
+double longest_way(const Tool& tool, const Pose<double>& from, const Pose<double>& to) {
+  double longest = 0;
+  for (int i = 0; i < piece_count(tool); ++i)
+    for (int v = 0; v < piece_of(tool, i).vertex_count(); ++v) {
+      const Vector3<double> vertex = piece_of(tool, i).vertex(v);
+      longest = std::max(longest, (to * vertex - from * vertex).norm());
+    }
+  return longest;
+}
+
 }  // namespace
 
 BOOST_AUTO_TEST_CASE(a_free_pose_is_its_own_nearest) {
@@ -237,6 +249,45 @@ BOOST_AUTO_TEST_CASE(where_nothing_is_free_within_the_bound_it_says_so) {
   BOOST_TEST(!no_pose.is_found);
   BOOST_TEST((no_pose.status == Status::not_finite));
   BOOST_TEST(no_pose.pose.is_finite());
+}
+
+BOOST_AUTO_TEST_CASE(where_none_is_found_the_renderer_holds_no_pose) {
+  for (const double farthest : {1e-4, 1e-9, 0.0, -1.0}) {
+    Scene scene(ground(1), Sphere<double>(0.002));
+    const Pose<double> pose{.translation = {0, 0, 0.0005}};
+    BOOST_TEST(!nearest_free_pose(scene.renderer, pose, farthest).is_found);
+    BOOST_TEST((scene.renderer.update(pose).status == Status::not_reset));
+    BOOST_TEST(scene.renderer.tick().wrench.force.isZero(0));
+  }
+}
+
+BOOST_AUTO_TEST_CASE(what_is_free_straight_up_within_the_bound_is_found_whatever_the_metric_prefers) {
+  std::mt19937 bits(25);
+  const auto check = [&](const auto& tool, double round) {
+    const Pose<double> pose{0.01 * feeler_test::random_vector(bits), feeler_test::random_rotation(bits)};
+    double depth = round - pose.translation.z();
+    for (int v = 0; v < tool.vertex_count(); ++v) depth = std::max(depth, round - (pose * Vector3<double>(tool.vertex(v))).z());
+    Settings<double> settings;
+    if (feeler_test::below(bits, 2) == 0) settings.reference_point = 0.15 * feeler_test::random_vector(bits);
+    Scene scene(ground(1), tool, settings);
+    const double farthest = depth * (1 + feeler_test::magnitude(bits, -3, 0)) + 4 * margin;
+    const auto found = nearest_free_pose(scene.renderer, pose, farthest);
+    if (found.status == Status::converged) return;
+    BOOST_TEST_CONTEXT("reference point " << settings.reference_point.transpose() << ", up " << depth << ", farthest " << farthest) {
+      BOOST_TEST_REQUIRE(found.is_found);
+      BOOST_TEST(found.depth <= farthest);
+      BOOST_TEST(longest_way(tool, pose, found.pose) <= farthest);
+      const double side = (found.pose * Vector3<double>(tool.vertex(0))).z() < 0 ? -1 : 1;
+      for (int v = 0; v < tool.vertex_count(); ++v) BOOST_TEST(side * (found.pose * Vector3<double>(tool.vertex(v))).z() >= round);
+    }
+  };
+  for (int i = 0; i < ticks_to_run(60); ++i) {
+    check(Box<double>(Vector3<double>(0.02, 0.02, 0.02) + 0.015 * feeler_test::random_vector(bits)), 0);
+    check(Capsule<double>({{0, 0, -0.03}, {0, 0, 0.03}}, 0.005), 0.005);
+    Points<double> points(12, 3);
+    for (int k = 0; k < points.rows(); ++k) points.row(k) = 0.03 * feeler_test::random_vector(bits).transpose();
+    check(ConvexPolytope<double>::hull_of(points), 0);
+  }
 }
 
 #if FEELER_TEST_COUNTS_ALLOCATIONS

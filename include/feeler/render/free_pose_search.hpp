@@ -55,7 +55,7 @@ class FreePoseSearch {
     farthest_ = farthest_ > Scalar(0) ? (std::min)(farthest_, everywhere) : Scalar(0);  // a NaN is no way either
     for (const bool follows_normals : {true, false}) push_out(follows_normals);
     go_straight();
-    if (best_.is_found) renderer_.reset(best_.pose);
+    renderer_.reset(best_.is_found ? best_.pose : asked_);  // where that is not free it holds no pose
     return best_;
   }
 
@@ -175,11 +175,12 @@ class FreePoseSearch {
   /// Looks along 26 directions, farther and farther, and back from where the tool is free.
   void go_straight() noexcept {
     constexpr int grid = 27;
+    const Scalar longest = farthest_ - scene_.margin() / 10;  // and no rounding makes it longer than `farthest_`
     std::array<bool, grid> is_done{};
     Scalar way = 10 * scene_.margin();
     for (bool is_last = false; !is_last; way *= Scalar(1.5)) {
-      is_last = way >= farthest_ || (best_.is_found && way > 2 * Scalar(best_.depth));
-      way = (std::min)(way, farthest_);
+      is_last = way >= longest || (best_.is_found && way > 2 * Scalar(best_.depth));
+      way = (std::min)(way, longest);
       for (int i = 0; i < grid; ++i) {
         if (i == grid / 2 || is_done[std::size_t(i)]) continue;
         const Vector3<Scalar> direction = Vector3<Scalar>(Scalar(i % 3 - 1), Scalar(i / 3 % 3 - 1), Scalar(i / 9 - 1)).normalized();
@@ -188,27 +189,26 @@ class FreePoseSearch {
     }
   }
 
-  /// Takes a pose that is free, or where the renderer gets from it towards the one asked for, if that is
+  /// Takes where the renderer gets from a free pose towards the one asked for, or that pose itself where this is too far, if that is
   /// nearer than the best. False where it is not free.
   bool try_from(const Pose<Scalar>& pose) noexcept {
     constexpr int most_work = 10000;
     const Pose<MeshScalar> first = scene_.tool_pose(pose);
     if (touches(pose) || renderer_.reset(first) != TickStatus::converged) return false;
     const Tick<MeshScalar> tick = renderer_.update_until_converged(asked_, most_work);
-    if (renderer_.reset(tick.graphic_pose) == TickStatus::converged) {
-      take(tick.graphic_pose, tick.contacts);
-    } else {
-      take(first, {});
-    }
+    if (renderer_.reset(tick.graphic_pose) != TickStatus::converged || !take(tick.graphic_pose, tick.contacts)) take(first, {});
     return true;
   }
 
-  void take(const Pose<MeshScalar>& pose, const decltype(Result::contacts)& contacts) noexcept {
+  /// False where it is too far.
+  bool take(const Pose<MeshScalar>& pose, const decltype(Result::contacts)& contacts) noexcept {
     const Pose<Scalar> end = scene_.reference_pose(pose);
     const Scalar energy = scene_.metric().energy(scene_.idle_turns().motion_between(start_, end)), depth = longest_way(end);
-    if (depth > farthest_ || (best_.is_found && energy >= energy_)) return;
+    if (depth > farthest_) return false;
+    if (best_.is_found && energy >= energy_) return true;
     energy_ = energy;
     best_ = {true, pose, best_.status, MeshScalar(depth), contacts};
+    return true;
   }
 
   Scalar longest_way(const Pose<Scalar>& end) const noexcept {
@@ -237,12 +237,12 @@ class FreePoseSearch {
 }  // namespace detail
 
 /// The nearest pose at which a tool is free, for a start in contact, in a solid, or with a tool that grew:
-/// certified as `reset` does, and what the renderer then is reset to. Where none is found it holds no pose.
+/// certified as `reset` does, and what the renderer then is reset to. Where none is found, it holds no pose.
 ///
 /// From the pose asked for the tool is pushed out of what it overlaps, and moved straight along 26
 /// directions, farther and farther. From each free pose so found `update_until_converged` leads back towards
-/// the pose asked for, and of where that ends the nearest in the metric is taken. It is a local minimum, with
-/// the margin kept; that nothing is nearer is not proved. The way there from the pose asked for may cross the
+/// the pose asked for, and of where that ends the nearest in the metric is taken; where that is too far, the free
+/// pose itself. It is a local minimum, with the margin kept; that nothing is nearer is not proved. The way there from the pose asked for may cross the
 /// object: where walls are thin the other side may be nearer.
 /// @param renderer  a `HapticRenderer`
 /// @param farthest  no tool point goes farther [m]; without it, as far as the outside; nothing is found where it is no length
