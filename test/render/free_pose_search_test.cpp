@@ -7,6 +7,7 @@
 #include <random>
 
 #include "feeler/object/mesh_assembly.hpp"
+#include "fuzz/laws/prismatic_fits.hpp"
 #include "scenes/cavity.hpp"
 #include "scenes/terrain.hpp"
 #include "support/allocation_count.hpp"
@@ -74,6 +75,41 @@ double longest_way(const Tool& tool, const Pose<double>& from, const Pose<double
     }
   return longest;
 }
+
+/// A peg of 3 to 8 sides in its hole.
+laws::LawScene<ConvexPolytope<double>> peg_of_few_sides(std::mt19937& bits) {
+  laws::Section section;
+  do section = laws::random_section(bits);
+  while (section.size() > 8);
+  return laws::peg_in_hole(bits, "peg", section);
+}
+
+/// Starts that are caught in a fit, and how far they are off the middle of it, which is free.
+struct CaughtStarts {
+  int count = 0, farther = 0;
+
+  /// From 10 nm to a millimetre off.
+  template <class Tool>
+  void check(std::mt19937& bits, const laws::LawScene<Tool>& fit) {
+    laws::Surface placed = fit.surface;
+    for (auto& vertex : placed.vertices) vertex = fit.placed * vertex;
+    Scene scene({laws::points_of(placed), laws::rows_of(placed)}, fit.tool, fit.settings);
+    if (scene.renderer.reset(fit.placed) != Status::converged) return;
+    const CheckedObject walls(laws::points_of(placed), laws::rows_of(placed));
+    const double off = feeler_test::magnitude(bits, -8, -3), turn = off / laws::radius_of(fit.tool);
+    const Vector3<double> way = off * random_direction(bits), turned = turn * random_direction(bits);
+    const Pose<double> asked = laws::compose(fit.placed, {way, exp_rotation<double>(turned)});
+    const auto found = nearest_free_pose(scene.renderer, asked);
+    if (found.status == Status::converged) return;
+    ++count;
+    BOOST_TEST_CONTEXT(fit.family << ' ' << count << ", play " << fit.play << ", off " << off) {
+      BOOST_TEST_REQUIRE(found.is_found);
+      BOOST_TEST(deepest_penetration(walls, checked_pieces(fit.tool), checked_pose(found.pose)).depth <= no_clearance_depth);
+      farther += found.depth > 2 * longest_way(fit.tool, asked, fit.placed) + 4 * fit.settings.margin;
+      BOOST_TEST(std::abs(found.depth - longest_way(fit.tool, asked, found.pose)) <= 1e-12);
+    }
+  }
+};
 
 }  // namespace
 
@@ -158,6 +194,45 @@ BOOST_AUTO_TEST_CASE(a_tool_that_is_caught_in_a_tight_fit_stays_in_it) {
     BOOST_TEST(found.is_found);
     BOOST_TEST(found.depth < 5e-4);
   }
+}
+
+BOOST_AUTO_TEST_CASE(a_tool_that_is_caught_in_a_random_fit_goes_hardly_farther_than_its_middle_is) {
+  std::mt19937 bits(24);
+  CaughtStarts starts;
+  for (int i = 0; i < ticks_to_run(60); ++i) {
+    starts.check(bits, peg_of_few_sides(bits));
+    starts.check(bits, laws::angle_in_hole(bits));
+    starts.check(bits, laws::boxes_in_slot(bits));
+  }
+  BOOST_TEST(starts.count > (runs_all_ticks ? 80 : 8));
+  BOOST_TEST(starts.farther <= starts.count / 30);  // of walls in many pieces, where the search is cut short
+}
+
+BOOST_AUTO_TEST_CASE(in_a_fit_without_play_a_smaller_trust_radius_may_refuse_the_last_pose_and_finds_one_next_to_it) {
+  std::mt19937 bits(26);
+  int refused = 0;
+  for (int i = 0; i < ticks_to_run(400); ++i) {
+    const auto fit = peg_of_few_sides(bits);
+    if (fit.play > 0) continue;
+    laws::Surface placed = fit.surface;
+    for (auto& vertex : placed.vertices) vertex = fit.placed * vertex;
+    const ClosedMesh mesh{laws::points_of(placed), laws::rows_of(placed)};
+    Settings<double> settings;
+    Scene usual(mesh, fit.tool, settings);
+    if (usual.renderer.reset(fit.placed) != Status::converged) continue;
+    for (int k = 0; k < 100; ++k) {
+      const Vector3<double> way = 0.01 * feeler_test::random_vector(bits), turned = 0.3 * random_direction(bits);
+      usual.renderer.update(laws::compose(fit.placed, {way, exp_rotation<double>(turned)}));
+    }
+    const Pose<double> last = usual.renderer.tick().graphic_pose;
+    settings.trust_radius = 3e-6;
+    Scene finer(mesh, fit.tool, settings);
+    refused += finer.renderer.reset(last) == Status::penetrating;
+    const auto found = nearest_free_pose(finer.renderer, last);
+    BOOST_TEST_REQUIRE(found.is_found);
+    BOOST_TEST(found.depth <= 1e-9);
+  }
+  BOOST_TEST(refused > (runs_all_ticks ? 0 : -1));
 }
 
 BOOST_AUTO_TEST_CASE(what_is_found_in_random_soups_is_free_and_no_farther_than_the_checker_says) {

@@ -86,7 +86,7 @@ class FreePoseSearch {
     return scene_.in_tool(scene_.object().corners(triangle).template cast<Scalar>(), pose, pose.rotation.toRotationMatrix());
   }
 
-  /// Whether a triangle overlaps the tool or touches it: cheaper than `reset` where there is one.
+  /// Whether a triangle overlaps the tool or is next to nothing off: cheaper than `reset` where there is one.
   bool touches(const Pose<Scalar>& pose) const noexcept {
     bool result = false;
     visit_near(pose, [&](int piece, int triangle) {
@@ -98,13 +98,15 @@ class FreePoseSearch {
   }
 
   /// Moves the tool out of one triangle after the other, each time as little as the metric allows, turns
-  /// included: what frees a tool that is caught by a little, in a tight fit too.
+  /// included: what frees a tool that is caught by a little, in a tight fit too. What is to be left of the margin halves with each round,
+  /// as a fit may be tighter than that.
   /// @param follows_normals  to the front of each triangle; else to where it is nearest to be free of it
   void push_out(bool follows_normals) noexcept {
-    constexpr int most_rounds = 64, most_pairs = 50000, most_axes = 8'000'000;
+    constexpr int most_rounds = 1000, most_pairs = 50000, most_axes = 8'000'000;
     Pose<Scalar> pose = start_;
     int pairs = 0;
     axes_ = 0;
+    kept_ = scene_.margin();
     bool is_moved = true;
     for (int round = 0; round < most_rounds && is_moved && pairs < most_pairs; ++round) {
       is_moved = false;
@@ -117,16 +119,17 @@ class FreePoseSearch {
         }
         return ++pairs < most_pairs && axes_ < most_axes;
       });
+      kept_ = (std::max)(kept_ / 2, 2 * scene_.clearance().rounding);
     }
     if (!is_moved) try_from(pose);
   }
 
-  /// The least motion in the metric after which a triangle is half a margin from a piece; none where it is.
+  /// The least motion in the metric after which a triangle is `kept_` from a piece; none where half of it is left.
   Twist<Scalar> push_of(int piece, int triangle, const Pose<Scalar>& pose, bool follows_normals) noexcept {
     const auto& tool = scene_.piece(piece);
     const Matrix3<Scalar> corners = in_tool(triangle, pose);
     auto closest = gjk(tool, corners, {}, scene_.clearance().touching);
-    if (!closest.is_touching && closest.distance >= scene_.margin() / 2) return {};
+    if (!closest.is_touching && closest.distance >= kept_ / 2) return {};
     const Vector3<Scalar> normal = triangle_normal<Scalar>(corners.col(0), corners.col(1), corners.col(2));
     if (follows_normals && !normal.isZero(Scalar(0))) {
       closest.normal = normal;
@@ -134,12 +137,17 @@ class FreePoseSearch {
       closest.tool_point = tool.vertex(tool.support(Vector3<Scalar>(-normal)));
     } else if (closest.is_touching) {
       way_out(tool, corners, closest);
+      // Parted along that, their closest points tell where they touch: a face of the tool turns about the corner that is in it.
+      const Scalar gap = (std::max)(scene_.margin(), 4 * scene_.clearance().touching);
+      const Matrix3<Scalar> parted = corners.colwise() + (closest.distance - gap) * closest.normal;
+      closest.tool_point = gjk(tool, parted, {}, scene_.clearance().touching).tool_point;
     }
+    if (closest.distance >= kept_ / 2 - scene_.clearance().allowance) return {};
     Vector6<Scalar> row;
     row.template head<3>() = pose.rotation * closest.normal;
     row.template tail<3>() = (pose.rotation * Vector3<Scalar>(closest.tool_point - scene_.reference())).cross(row.template head<3>());
     const Vector6<Scalar> motion = row.cwiseQuotient(scene_.metric().along().diagonal());
-    return Twist<Scalar>::from_vector(motion * ((scene_.margin() - closest.distance) / row.dot(motion)));
+    return Twist<Scalar>::from_vector(motion * ((kept_ - closest.distance) / row.dot(motion)));
   }
 
   /// The separating plane of a tool and a triangle that overlap. Of a tool of many faces some are tried, spread over it: hardly a longer way out, and
@@ -184,7 +192,8 @@ class FreePoseSearch {
       for (int i = 0; i < grid; ++i) {
         if (i == grid / 2 || is_done[std::size_t(i)]) continue;
         const Vector3<Scalar> direction = Vector3<Scalar>(Scalar(i % 3 - 1), Scalar(i / 3 % 3 - 1), Scalar(i / 9 - 1)).normalized();
-        is_done[std::size_t(i)] = try_from({start_.translation + way * direction, start_.rotation});
+        const Pose<Scalar> pose{start_.translation + way * direction, start_.rotation};
+        is_done[std::size_t(i)] = !touches(pose) && try_from(pose);
       }
     }
   }
@@ -194,7 +203,7 @@ class FreePoseSearch {
   bool try_from(const Pose<Scalar>& pose) noexcept {
     constexpr int most_work = 10000;
     const Pose<MeshScalar> first = scene_.tool_pose(pose);
-    if (touches(pose) || renderer_.reset(first) != TickStatus::converged) return false;
+    if (renderer_.reset(first) != TickStatus::converged) return false;
     const Tick<MeshScalar> tick = renderer_.update_until_converged(asked_, most_work);
     if (renderer_.reset(tick.graphic_pose) != TickStatus::converged || !take(tick.graphic_pose, tick.contacts)) take(first, {});
     return true;
@@ -231,6 +240,7 @@ class FreePoseSearch {
   Scalar farthest_;
   Result best_;
   Scalar energy_ = Scalar(0);  // of the best, from the pose asked for
+  Scalar kept_ = Scalar(0);  // what a push out leaves of the margin [m]
   int axes_ = 0;  // tried in a push out
 };
 
@@ -242,12 +252,14 @@ class FreePoseSearch {
 /// From the pose asked for the tool is pushed out of what it overlaps, and moved straight along 26
 /// directions, farther and farther. From each free pose so found `update_until_converged` leads back towards
 /// the pose asked for, and of where that ends the nearest in the metric is taken; where that is too far, the free
-/// pose itself. It is a local minimum, with the margin kept; that nothing is nearer is not proved. The way there from the pose asked for may cross the
+/// pose itself. It is a local minimum, with the margin kept where there is room for it; that nothing is nearer is not
+/// proved. In a fit tighter than the margin the tool stays, but for walls of hundreds of triangles or tools of hundreds
+/// of faces: there the search may be cut short and go out. The way there from the pose asked for may cross the
 /// object: where walls are thin the other side may be nearer.
 /// @param renderer  a `HapticRenderer`
 /// @param farthest  no tool point goes farther [m]; without it, as far as the outside; nothing is found where it is no length
 /// @cost  noexcept, no allocation; bounded: 10 to 200 ms, and up to two seconds where thousands of triangles
-/// are overlapped, four with a hull of 10,000 points; for use outside the loop
+/// are overlapped, five with a round fit or a hull of 10,000 points; for use outside the loop
 template <class Renderer, class Scalar = typename Renderer::Scalar>
 FreePose<Scalar> nearest_free_pose(Renderer& renderer, const Pose<Scalar>& pose, Scalar farthest = (std::numeric_limits<Scalar>::max)()) noexcept {
   const TickStatus status = renderer.reset(pose);
