@@ -230,6 +230,61 @@ BOOST_AUTO_TEST_CASE(a_surface_of_one_side_and_points_and_lines_hold_nothing) {
   BOOST_TEST(Solid(ClosedMesh{Points<double>{{0, 0, 0}, {1, 0, 0}}, Triangles{{0, 1, 1}, {0, 0, 0}}}).interior.is_empty());
 }
 
+BOOST_AUTO_TEST_CASE(what_is_given_twice_and_walls_within_a_solid_open_no_solid) {
+  std::mt19937 bits(5);
+  const auto with_triangle = [](const ClosedMesh& mesh, Eigen::Index t, bool is_turned) {
+    ClosedMesh more{mesh.vertices, feeler::Triangles(mesh.triangles.rows() + 1, 3)};
+    more.triangles << mesh.triangles, mesh.triangles.row(t);
+    if (is_turned) std::swap(more.triangles(mesh.triangles.rows(), 1), more.triangles(mesh.triangles.rows(), 2));
+    return more;
+  };
+  for (const ClosedMesh& shape : {cube(1), ball(1, 4), torus(1, 0.4, 12, 8).moved(Eigen::Quaterniond::Identity(), {-1, 0, 0})})
+    for (int i = 0; i < 40; ++i) {
+      ClosedMesh mesh = shape;
+      for (int k = below(bits, 20); k > 0; --k) mesh = with_triangle(mesh, below(bits, int(mesh.triangles.rows())), false);
+      if (i % 2 == 0) mesh = with_triangle(mesh, below(bits, int(shape.triangles.rows())), true);
+      const Solid solid(mesh);
+      BOOST_TEST(solid.contains(Vector(0.01, 0.02, 0.03)));
+      BOOST_TEST(!solid.contains(Vector(1.5, 0.2, 0.1)));
+    }
+  // A block that walls cut into rooms, each of which is closed: all of it is solid.
+  const auto rooms = [&](int count, bool are_turned) {
+    ClosedMesh row{Points<double>(0, 3), feeler::Triangles(0, 3)};
+    for (int i = 0; i < count; ++i) row = row.with(block({double(i), 0, 0}, {double(i + 1), 1, 1}));
+    std::vector<Eigen::Index> kept;
+    for (Eigen::Index t = 0; t < row.triangles.rows(); ++t) {
+      const double x = row.vertices(row.triangles(t, 0), 0);
+      const bool is_wall = x > 0 && x < count && row.vertices(row.triangles(t, 1), 0) == x && row.vertices(row.triangles(t, 2), 0) == x;
+      if (!is_wall || (t / 12 < Eigen::Index(x)) == are_turned) kept.push_back(t);  // of the two that blocks share one
+    }
+    feeler::Triangles triangles(Eigen::Index(kept.size()), 3);
+    for (std::size_t k = 0; k < kept.size(); ++k) triangles.row(Eigen::Index(k)) = row.triangles.row(kept[k]);
+    return ClosedMesh{row.vertices, triangles};
+  };
+  for (const int count : {2, 3, 5})
+    for (const bool are_turned : {false, true}) {
+      const Solid solid(rooms(count, are_turned));
+      BOOST_TEST(solid.mesh.triangle_count() == 10 * count + 2);
+      for (int i = 0; i < count; ++i) BOOST_TEST(solid.contains(Vector(i + 0.5, 0.4, 0.3)), "room " << i << " of " << count);
+      BOOST_TEST(!solid.contains(Vector(count + 0.5, 0.4, 0.3)));
+    }
+}
+
+BOOST_AUTO_TEST_CASE(a_cavity_that_touches_the_wall_of_its_block_is_one) {
+  const ClosedMesh outer = cube(0.02);
+  for (int first = 0; first < 4; ++first) {
+    ClosedMesh hole{Points<double>{{0.02, 0.003, 0.001}, {-0.01, 0.01, 0.0}, {-0.01, -0.01, 0.0}, {0.0, 0.0, 0.015}},
+                    Triangles{{0, 1, 2}, {0, 2, 3}, {0, 3, 1}, {1, 3, 2}}};
+    Triangles turned(4, 3);
+    for (int t = 0; t < 4; ++t) turned.row(t) = hole.triangles.row((t + first) % 4);
+    hole.triangles = turned;
+    const Vector inside = hole.vertices.colwise().mean().transpose();
+    const ClosedMesh both = outer.with(Solid(hole).contains(inside) ? hole.inverted() : hole);
+    BOOST_TEST(!Solid(both).contains(inside));
+    BOOST_TEST(Solid(both).contains(Vector(0.0, 0.0, -0.015)));
+  }
+}
+
 BOOST_AUTO_TEST_CASE(a_point_near_the_surface_is_not_enclosed) {
   const Solid solid(cube(1));
   for (const double depth : {-1e-3, -1e-11, 0.0, 4e-12}) BOOST_TEST(!solid.interior.encloses(solid.mesh, Vector(0.3, 0.2, 1 - depth), 1e-11));
