@@ -16,7 +16,13 @@ inline constinit std::atomic<void (*)(const std::string&)> throw_refusal = nullp
 
 #if defined(__cpp_exceptions)
 [[noreturn]] inline void throw_invalid_argument(const std::string& sentence) { throw std::invalid_argument(sentence); }
-inline const bool has_exceptions = (throw_refusal = throw_invalid_argument, true);  // set before main
+struct ThrowsRefusals {
+  ThrowsRefusals() noexcept { throw_refusal = throw_invalid_argument; }
+};
+#if defined(__GNUC__)
+[[gnu::init_priority(101)]]  // before other globals, which may be refused too, whichever file is linked first
+#endif
+inline const ThrowsRefusals throws_refusals;
 #endif
 }  // namespace detail
 
