@@ -8,9 +8,10 @@ set(windows_macros "min(a,b)" "max(a,b)" small hyper near far pascal cdecl inter
 set(x11_macros Status Bool True False None Success Always Never Above Below Complex Convex Nonconvex Opposite Unsorted Expose Button1 ControlMask ShiftMask LockMask
   FocusIn FocusOut KeyPress KeyRelease MotionNotify MapNotify CurrentTime CursorShape AnyKey AllPlanes InputOnly InputOutput NormalState TopIf BottomIf WindingRule
   EvenOddRule FillSolid LineSolid CapButt CapRound JoinBevel JoinRound RectangleIn RectangleOut RectanglePart NoValue WidthValue HeightValue "RootWindow(d,s)"
-  BadValue BadMatch BadLength GrayScale TrueColor)
+  BadValue BadMatch BadLength GrayScale TrueColor "index(s,c)" "rindex(s,c)")
 # In C++ its macros for `move`, `clear`, `erase` and `refresh` are functions, unless one asks for the macros.
-set(curses_macros OK ERR "timeout(delay)" "scroll(w)" "border(a,b,c,d,e,f,g,h)" "instr(s)" "inch()" "getch()" "getyx(w,y,x)" "standout()" "scrl(n)")
+set(curses_macros OK ERR "timeout(delay)" "scroll(w)" "border(a,b,c,d,e,f,g,h)" "instr(s)" "inch()" "getch()" "getyx(w,y,x)" "standout()" "scrl(n)" columns lines tab
+  bell newline)
 set(macros_of_others Q_OBJECT slots signals emit foreach forever nil YES NO MIN MAX ABS CLAMP "major(d)" "minor(d)" "makedev(a,b)" I unix linux B0 ECHO
   DEBUG EPSILON PI EOF SIGN SWAP "check(expression)" "verify(expression)" "ensure(expression)" "require(expression)" "likely(x)" "unlikely(x)")
 
@@ -50,7 +51,7 @@ foreach(line IN LISTS includes)
     string(APPEND real_source "${line}")
   endif()
 endforeach()
-foreach(header X11/Xlib.h X11/Xutil.h X11/keysym.h curses.h)
+foreach(header X11/Xlib.h X11/Xutil.h X11/Xos.h X11/keysym.h curses.h term.h)
   string(APPEND real_source "#if __has_include(<${header}>)\n#include <${header}>\n#endif\n")
 endforeach()
 foreach(header IN LISTS headers)

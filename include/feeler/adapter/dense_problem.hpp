@@ -38,13 +38,13 @@ class DenseProblem {
     status = conclude(problem, factor_, Vector6<double>(-factor_.solve(problem.gradient)), {}, tolerance, solution);
     if (status == QpStatus::optimal || problem.row_count == 0) return false;
     for (int i = 0; i < 6; ++i) {
-      gradient[index(i)] = problem.gradient[i];
-      for (int j = 0; j < 6; ++j) hessian[index(6 * i + j)] = problem.hessian(i, j);
+      gradient[as_index(i)] = problem.gradient[i];
+      for (int j = 0; j < 6; ++j) hessian[as_index(6 * i + j)] = problem.hessian(i, j);
     }
     for (int k = 0; k < problem.row_count; ++k) {
-      for (int i = 0; i < 6; ++i) rows[index(6 * k + i)] = problem.rows[index(k)][i];
-      lower[index(k)] = problem.bounds[index(k)];
-      upper[index(k)] = infinity;
+      for (int i = 0; i < 6; ++i) rows[as_index(6 * k + i)] = problem.rows[as_index(k)][i];
+      lower[as_index(k)] = problem.bounds[as_index(k)];
+      upper[as_index(k)] = infinity;
     }
     return true;
   }
@@ -56,7 +56,7 @@ class DenseProblem {
                Solution& solution) const noexcept {
     const int iterations = solution.iterations;
     QpMultipliers<double> ours{};
-    for (int k = 0; k < problem.row_count; ++k) ours[index(k)] = sign * multipliers[k];
+    for (int k = 0; k < problem.row_count; ++k) ours[as_index(k)] = sign * multipliers[k];
     const Vector6<double> x(step);
     const QpStatus status = conclude(problem, factor_, x, ours, tolerance, solution);
     solution.iterations = iterations;

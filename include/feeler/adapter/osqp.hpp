@@ -54,19 +54,19 @@ class OsqpSolver {
   void fill_columns(const QpProblem<double>& problem) noexcept {
     int entry = 0;
     for (int j = 0; j < 6; ++j) {
-      triangle_starts_[index(j)] = entry;
+      triangle_starts_[as_index(j)] = entry;
       for (int i = 0; i <= j; ++i, ++entry) {
-        upper_triangle_[index(entry)] = problem.hessian(i, j);
-        triangle_rows_[index(entry)] = i;
+        upper_triangle_[as_index(entry)] = problem.hessian(i, j);
+        triangle_rows_[as_index(entry)] = i;
       }
     }
     triangle_starts_[6] = entry;
     entry = 0;
     for (int j = 0; j < 6; ++j) {
-      column_starts_[index(j)] = entry;
+      column_starts_[as_index(j)] = entry;
       for (int k = 0; k < problem.row_count; ++k, ++entry) {
-        columns_[index(entry)] = problem.rows[index(k)][j];
-        column_rows_[index(entry)] = k;
+        columns_[as_index(entry)] = problem.rows[as_index(k)][j];
+        column_rows_[as_index(entry)] = k;
       }
     }
     column_starts_[6] = entry;

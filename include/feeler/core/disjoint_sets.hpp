@@ -18,12 +18,12 @@ class DisjointSets {
   /// Appends a number.
   void add() { parent_.push_back(int(parent_.size())); }
   int root(int i) noexcept {
-    while (!is_root(i)) i = parent_[index(i)] = parent_[index(parent_[index(i)])];
+    while (!is_root(i)) i = parent_[as_index(i)] = parent_[as_index(parent_[as_index(i)])];
     return i;
   }
-  bool is_root(int i) const noexcept { return parent_[index(i)] == i; }
+  bool is_root(int i) const noexcept { return parent_[as_index(i)] == i; }
   /// The set of one number joins that of another, whose root stays.
-  void join(int from, int to) noexcept { parent_[index(root(from))] = root(to); }
+  void join(int from, int to) noexcept { parent_[as_index(root(from))] = root(to); }
 
  private:
   std::vector<int> parent_;

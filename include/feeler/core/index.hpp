@@ -6,6 +6,6 @@
 namespace feeler {
 
 /// @param i  not negative
-constexpr std::size_t index(int i) noexcept { return std::size_t(i); }
+constexpr std::size_t as_index(int i) noexcept { return std::size_t(i); }
 
 }  // namespace feeler

@@ -83,8 +83,8 @@ class CombinationSearch {
     reach_ = reach;
     LocalSearch<Tool, MeshScalar> search(scene.tool(), scene.object(), scene.tool_frame(reach.pose), reach.distance, near_vertices_);
     for (int i = 0; i < regions.size(); ++i) {
-      search.find(regions[i], found_[index(i)]);
-      dropped_ += found_[index(i)].dropped;
+      search.find(regions[i], found_[as_index(i)]);
+      dropped_ += found_[as_index(i)].dropped;
     }
     solutions_.clear();
     try_combinations(scene, regions.size(), tick);
@@ -110,7 +110,7 @@ class CombinationSearch {
         ++dropped_;
       }
       int i = 0;
-      while (i < region_count && ++choice[index(i)] >= found_[index(i)].candidates.size()) choice[index(i++)] = 0;
+      while (i < region_count && ++choice[as_index(i)] >= found_[as_index(i)].candidates.size()) choice[as_index(i++)] = 0;
       if (i == region_count) return;
     }
   }
@@ -147,8 +147,8 @@ class CombinationSearch {
   bool gather_constraints(const Scene& scene, const Choice& choice, int region_count) noexcept {
     constraints_.clear();
     for (int i = 0; i < region_count; ++i) {
-      if (found_[index(i)].candidates.empty()) continue;
-      for (const CandidateConstraint& constraint : found_[index(i)].candidates[choice[index(i)]].constraints) {
+      if (found_[as_index(i)].candidates.empty()) continue;
+      for (const CandidateConstraint& constraint : found_[as_index(i)].candidates[choice[as_index(i)]].constraints) {
         if (!constraints_.push_back({constraint, Scalar(0), i})) ++dropped_;
         if (row_at(scene, constraint, reach_.pose).gap < -reach_.distance) return false;
       }
@@ -218,7 +218,7 @@ class CombinationSearch {
       const CandidateConstraint& constraint = constraints_[i].constraint;
       const Scalar certified = (std::max)(row_at(scene, constraint, reach_.pose).gap, Scalar(0));
       const Scalar wanted = (std::min)(scene.margin(), certified) - row_at(scene, constraint, pose).gap;
-      problem_.bounds[index(i)] = (std::min)(problem_.bounds[index(i)], wanted);
+      problem_.bounds[as_index(i)] = (std::min)(problem_.bounds[as_index(i)], wanted);
     }
   }
 

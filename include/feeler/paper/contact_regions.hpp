@@ -141,8 +141,8 @@ class ContactRegions {
     auto& features = contact.features;
     for (int i = 0; i < scene.tool().vertex_count() && features.size < 3; ++i) {
       if (normal.dot(scene.tool().vertex(i)) > lowest + 2 * scene.margin()) continue;
-      features.tool_vertices[index(features.size)] = short(i);
-      features.corners[index(features.size)] = short(features.size);
+      features.tool_vertices[as_index(features.size)] = short(i);
+      features.corners[as_index(features.size)] = short(features.size);
       ++features.size;
     }
     return closest.distance;

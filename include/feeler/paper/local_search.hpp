@@ -77,7 +77,7 @@ class LocalSearch {
 
   void gather_tool_neighbours(const FirstContact<Scalar>& contact) noexcept {
     near_.clear();
-    for (int i = 0; i < contact.features.size; ++i) near_.add(contact.features.tool_vertices[index(i)]);
+    for (int i = 0; i < contact.features.size; ++i) near_.add(contact.features.tool_vertices[as_index(i)]);
     const std::span<const int> own(near_.begin(), std::size_t(near_.size()));
     const auto is_own = [own](int vertex) { return std::find(own.begin(), own.end(), vertex) != own.end(); };
     for (int e = 0; e < tool_.edge_count(); ++e) {
@@ -159,7 +159,7 @@ class LocalSearch {
     FixedVector<int, Ring::capacity> known;
     for (int i = 0; i < ring_.triangles().size(); ++i) {
       for (int k = 0; k < 3; ++k) {
-        const int vertex = mesh_.triangle(ring_.triangles()[i])[index(k)];
+        const int vertex = mesh_.triangle(ring_.triangles()[i])[as_index(k)];
         const Convexity shape = ring_.convexity(mesh_.topology().vertex_convexity(vertex));
         if (shape == Convexity::concave || shape == Convexity::flat) continue;
         if (std::find(known.begin(), known.end(), vertex) != known.end() || !known.push_back(vertex)) continue;

@@ -61,7 +61,7 @@ class TriangleRing {
   const FixedVector<Plane, plane_capacity>& planes() const noexcept { return planes_; }
   bool contains(int triangle) const noexcept { return std::find(triangles_.begin(), triangles_.end(), triangle) != triangles_.end(); }
 
-  Vector corner(int triangle, int k) const noexcept { return mesh_.vertex(mesh_.triangle(triangle)[index(k)]).template cast<Scalar>(); }
+  Vector corner(int triangle, int k) const noexcept { return mesh_.vertex(mesh_.triangle(triangle)[as_index(k)]).template cast<Scalar>(); }
   /// Seen from the tool; rims are convex.
   Convexity convexity(Convexity given) const noexcept {
     if (given == Convexity::boundary || given == Convexity::non_manifold) return Convexity::convex;
@@ -149,7 +149,7 @@ class TriangleRing {
       for (int k = 0; k < 3; ++k) {
         const int other = mesh_.topology().neighbour(triangles_[i], k);
         if (other >= 0 && edge_convexity(triangles_[i], k) == shape && has_triangle(b, other)) return true;
-        const int vertex = mesh_.triangle(triangles_[i])[index(k)];
+        const int vertex = mesh_.triangle(triangles_[i])[as_index(k)];
         const Convexity at_vertex = mesh_.topology().vertex_convexity(vertex);
         if (at_vertex != Convexity::boundary && convexity(at_vertex) == shape && has_vertex(b, vertex)) return true;
       }

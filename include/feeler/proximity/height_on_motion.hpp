@@ -76,19 +76,19 @@ class BoxOnMotion {
   void end(const Moving& moving, const MotionFrame<Scalar>& frame) noexcept {
     if (moving.is_still()) return for_each_side([](int, Scalar, auto& side) { side.end_at(side.start, Scalar(0)); });
     std::array<Scalar, 3> sagittas;
-    for (int axis = 0; axis < 3; ++axis) sagittas[index(axis)] = moving.sagitta_along_axis(axis, frame.time);
-    for_each_side([&](int axis, Scalar sign, auto& side) { side.end_at(moving.lowest_along_axis(axis, sign, frame), sagittas[index(axis)]); });
+    for (int axis = 0; axis < 3; ++axis) sagittas[as_index(axis)] = moving.sagitta_along_axis(axis, frame.time);
+    for_each_side([&](int axis, Scalar sign, auto& side) { side.end_at(moving.lowest_along_axis(axis, sign, frame), sagittas[as_index(axis)]); });
   }
   /// The least coordinate that a point of the tool has along an axis, and the largest [m].
-  Scalar lower(int axis) const noexcept { return sides_[index(axis)][0].least; }
-  Scalar upper(int axis) const noexcept { return -sides_[index(axis)][1].least; }
+  Scalar lower(int axis) const noexcept { return sides_[as_index(axis)][0].least; }
+  Scalar upper(int axis) const noexcept { return -sides_[as_index(axis)][1].least; }
 
  private:
   template <class Visit>
   void for_each_side(const Visit& visit) noexcept {
     for (int axis = 0; axis < 3; ++axis) {
-      visit(axis, Scalar(1), sides_[index(axis)][0]);
-      visit(axis, Scalar(-1), sides_[index(axis)][1]);
+      visit(axis, Scalar(1), sides_[as_index(axis)][0]);
+      visit(axis, Scalar(-1), sides_[as_index(axis)][1]);
     }
   }
 

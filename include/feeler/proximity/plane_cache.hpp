@@ -30,9 +30,9 @@ class PlaneCache {
   explicit PlaneCache(int leaf_capacity = 0) : leaves_(leaf_capacity) {}
 
   int size() const noexcept { return size_; }
-  const Vector3<Scalar>& normal(int i) const noexcept { return planes_[index(i)].normal; }
-  Scalar limit(int i) const noexcept { return planes_[index(i)].limit; }
-  void count_hits(int i, int hits) noexcept { planes_[index(i)].hits += hits; }
+  const Vector3<Scalar>& normal(int i) const noexcept { return planes_[as_index(i)].normal; }
+  Scalar limit(int i) const noexcept { return planes_[as_index(i)].limit; }
+  void count_hits(int i, int hits) noexcept { planes_[as_index(i)].hits += hits; }
   void clear() noexcept {
     size_ = 0;
     knows_heights_ = false;
@@ -45,7 +45,7 @@ class PlaneCache {
   /// Leaves that planes of their own part from the tool.
   PartedLeaves<Scalar>& leaves() noexcept { return leaves_; }
   /// How far the tool is above the plane at the start of the motion, relative to its origin [m].
-  Scalar height(int i) const noexcept { return planes_[index(i)].start; }
+  Scalar height(int i) const noexcept { return planes_[as_index(i)].start; }
   /// Of the triangles that no plane passed.
   FeatureCache& features() noexcept { return features_; }
 
@@ -56,10 +56,10 @@ class PlaneCache {
     int place = size_ < capacity ? size_++ : 0;
     if (size_ == capacity && place == 0) {
       for (int i = 1; i < capacity; ++i) {
-        if (planes_[index(i)].hits < planes_[index(place)].hits) place = i;
+        if (planes_[as_index(i)].hits < planes_[as_index(place)].hits) place = i;
       }
     }
-    Plane& plane = planes_[index(place)];
+    Plane& plane = planes_[as_index(place)];
     plane.normal = normal;
     plane.hits = 2;
     plane.begin(moving, start);
@@ -69,7 +69,7 @@ class PlaneCache {
 
   /// Whether a plane parts the tool over the whole motion from what is up to `height` high along it, though it may not be `kept` away.
   bool parts_closely(int i, Scalar height, const Clearance<Scalar>& clearance) const noexcept {
-    return planes_[index(i)].parts_closely(height, clearance);
+    return planes_[as_index(i)].parts_closely(height, clearance);
   }
 
   /// Finds the heights at the start of a motion; they are relative to where the tool is, so known where it is turned as at the end of the last one.
@@ -77,13 +77,13 @@ class PlaneCache {
   void begin(const Moving& moving, const MotionFrame<Scalar>& start) noexcept {
     const bool keeps_axes = knows_heights_ && start.rotation == axes_at_end_;
     const auto begin = [&](auto& planes) { keeps_axes ? planes.go_on(shift_) : planes.begin(moving, start); };
-    for (int i = 0; i < size_; ++i) begin(planes_[index(i)]);
+    for (int i = 0; i < size_; ++i) begin(planes_[as_index(i)]);
     begin(box_);
   }
   /// Finds the limits for a motion that ends at a frame, and may have ended later before.
   template <class Moving>
   void end(const Moving& moving, const MotionFrame<Scalar>& end, Scalar kept) noexcept {
-    for (int i = 0; i < size_; ++i) planes_[index(i)].end(moving, end, kept);
+    for (int i = 0; i < size_; ++i) planes_[as_index(i)].end(moving, end, kept);
     box_.end(moving, end);
     axes_at_end_ = end.rotation;
     shift_ = end.shift;

@@ -33,7 +33,7 @@ class ToolPlanes {
   /// @param kept  separation that every point is to keep [m]
   template <class Moving>
   void set_motion(const Moving& moving, const MotionFrame<Scalar>& start, const MotionFrame<Scalar>& end, Scalar kept) noexcept {
-    for (int i = 0; i < size_; ++i) planes_[index(i)].set_motion(moving, start, end, kept);
+    for (int i = 0; i < size_; ++i) planes_[as_index(i)].set_motion(moving, start, end, kept);
   }
   /// Adds a plane in place of the least useful one, for the motion at hand.
   /// @param normal  unit, in the tool frame, from the object to the tool
@@ -41,7 +41,7 @@ class ToolPlanes {
   void add(const Vector3<Scalar>& normal, const Moving& moving, const MotionFrame<Scalar>& start, const MotionFrame<Scalar>& end,
            Scalar kept) noexcept {
     const int place = size_ < capacity ? size_++ : capacity - 1;
-    Plane& plane = planes_[index(place)];
+    Plane& plane = planes_[as_index(place)];
     plane.normal = normal;
     plane.height = moving.lowest_in_tool(normal) - swept_radius(moving.tool());
     plane.hits = 2;
@@ -52,7 +52,7 @@ class ToolPlanes {
   /// @param corners  relative to `MovingTool::origin()` [m]
   int parting(const Matrix3<Scalar>& corners) noexcept {
     for (int i = 0; i < size_; ++i) {
-      Plane& plane = planes_[index(i)];
+      Plane& plane = planes_[as_index(i)];
       if (!plane.at_start.is_above(corners) || !plane.at_end.is_above(corners)) continue;
       ++plane.hits;
       return i;
@@ -61,11 +61,11 @@ class ToolPlanes {
   }
   /// Whether a plane is lent for the first time in this motion: as it is in the world at the end, it parts much of what is around for as long
   /// as the tool does not turn far.
-  bool lend(int i) noexcept { return !std::exchange(planes_[index(i)].is_lent, true); }
-  const Vector3<Scalar>& normal_at_end(int i) const noexcept { return planes_[index(i)].at_end.normal; }
+  bool lend(int i) noexcept { return !std::exchange(planes_[as_index(i)].is_lent, true); }
+  const Vector3<Scalar>& normal_at_end(int i) const noexcept { return planes_[as_index(i)].at_end.normal; }
   /// Before a motion: halves the hits and brings the most useful planes to the front.
   void age() noexcept {
-    for (int i = 0; i < size_; ++i) planes_[index(i)].is_lent = false;
+    for (int i = 0; i < size_; ++i) planes_[as_index(i)].is_lent = false;
     detail::age_planes(planes_, size_);
   }
 

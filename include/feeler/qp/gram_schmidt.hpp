@@ -38,10 +38,10 @@ class GramSchmidt {
     e.projections.fill(Scalar(0));
     for (int pass = 0; pass < 2; ++pass) {
       for (int j = 0; j < size_; ++j) {
-        const Scalar part = e.free.dot(images_[index(j)]) / squares_[index(j)];
-        e.projections[index(j)] += part;
-        e.free -= part * vectors_[index(j)];
-        e.free_image -= part * images_[index(j)];
+        const Scalar part = e.free.dot(images_[as_index(j)]) / squares_[as_index(j)];
+        e.projections[as_index(j)] += part;
+        e.free -= part * vectors_[as_index(j)];
+        e.free_image -= part * images_[as_index(j)];
       }
     }
     e.free_squared = e.free.dot(e.free_image);
@@ -52,19 +52,19 @@ class GramSchmidt {
 
   /// Adds a vector with its expansion, which must have a free part.
   void add(const Expansion& e) noexcept {
-    vectors_[index(size_)] = e.free;
-    images_[index(size_)] = e.free_image;
-    squares_[index(size_)] = e.free_squared;
-    projections_[index(size_)] = e.projections;
+    vectors_[as_index(size_)] = e.free;
+    images_[as_index(size_)] = e.free_image;
+    squares_[as_index(size_)] = e.free_squared;
+    projections_[as_index(size_)] = e.projections;
     ++size_;
   }
 
   /// u with (Σ u_j a_j, a_i) = c_i for all i.
   std::array<Scalar, capacity> solve(std::array<Scalar, capacity> c) const noexcept {
     for (int i = 0; i < size_; ++i) {
-      for (int j = 0; j < i; ++j) c[index(i)] -= projections_[index(i)][index(j)] * c[index(j)];
+      for (int j = 0; j < i; ++j) c[as_index(i)] -= projections_[as_index(i)][as_index(j)] * c[as_index(j)];
     }
-    for (int i = 0; i < size_; ++i) c[index(i)] /= squares_[index(i)];
+    for (int i = 0; i < size_; ++i) c[as_index(i)] /= squares_[as_index(i)];
     solve_upper(c);
     return c;
   }
@@ -72,7 +72,7 @@ class GramSchmidt {
  private:
   void solve_upper(std::array<Scalar, capacity>& c) const noexcept {
     for (int i = size_ - 2; i >= 0; --i) {
-      for (int j = i + 1; j < size_; ++j) c[index(i)] -= projections_[index(j)][index(i)] * c[index(j)];
+      for (int j = i + 1; j < size_; ++j) c[as_index(i)] -= projections_[as_index(j)][as_index(i)] * c[as_index(j)];
     }
   }
 

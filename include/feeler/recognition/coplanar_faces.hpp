@@ -20,10 +20,10 @@ class CoplanarFaces {
  public:
   /// @cost  linear in the triangles, allocates
   explicit CoplanarFaces(const TriangleMesh<Scalar>& mesh) {
-    triangle_face_.assign(index(mesh.triangle_count()), -1);
+    triangle_face_.assign(as_index(mesh.triangle_count()), -1);
     for (const bool with_area : {true, false})
       for (int t = 0; t < mesh.triangle_count(); ++t)
-        if (triangle_face_[index(t)] < 0 && mesh.normal(t).isZero() != with_area) grow(mesh, t);
+        if (triangle_face_[as_index(t)] < 0 && mesh.normal(t).isZero() != with_area) grow(mesh, t);
   }
 
   const std::vector<SurfaceFace<Scalar>>& faces() const noexcept { return faces_; }
@@ -43,7 +43,7 @@ class CoplanarFaces {
     SurfaceFace<Scalar>& face = faces_.emplace_back();
     face.first_triangle = seed;
     Scalar largest = Scalar(-1);
-    triangle_face_[index(seed)] = number;
+    triangle_face_[as_index(seed)] = number;
     std::vector<Member> members{{seed, Scalar(1)}};
     for (std::size_t i = 0; i < members.size(); ++i) {
       const auto [triangle, orientation] = members[i];
@@ -59,8 +59,8 @@ class CoplanarFaces {
       if (normal.isZero()) continue;  // no bridge: it lies in any plane through its line
       for (int k = 0; k < 3; ++k) {
         const int neighbour = mesh.topology().neighbour(triangle, k);
-        if (neighbour < 0 || triangle_face_[index(neighbour)] >= 0 || mesh.topology().edge_convexity(triangle, k) != Convexity::flat) continue;
-        triangle_face_[index(neighbour)] = number;
+        if (neighbour < 0 || triangle_face_[as_index(neighbour)] >= 0 || mesh.topology().edge_convexity(triangle, k) != Convexity::flat) continue;
+        triangle_face_[as_index(neighbour)] = number;
         members.push_back({neighbour, faces_same_side(mesh, triangle, k, neighbour) ? orientation : Scalar(-orientation)});
       }
     }
@@ -68,10 +68,10 @@ class CoplanarFaces {
 
   /// Neighbours face the same side if they pass their common edge in opposite directions.
   static bool faces_same_side(const TriangleMesh<Scalar>& mesh, int triangle, int k, int neighbour) noexcept {
-    const int start = mesh.triangle(triangle)[index(k)], end = mesh.triangle(triangle)[index((k + 1) % 3)];
+    const int start = mesh.triangle(triangle)[as_index(k)], end = mesh.triangle(triangle)[as_index((k + 1) % 3)];
     const auto& other = mesh.triangle(neighbour);
     for (int j = 0; j < 3; ++j)
-      if (other[index(j)] == start && other[index((j + 1) % 3)] == end) return false;
+      if (other[as_index(j)] == start && other[as_index((j + 1) % 3)] == end) return false;
     return true;
   }
 

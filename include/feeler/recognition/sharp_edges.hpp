@@ -35,13 +35,13 @@ class SharpEdges {
       int low, high, slot;
     };
     std::vector<Slot> all_slots;
-    triangle_edge_.resize(3 * index(mesh.triangle_count()));
+    triangle_edge_.resize(3 * as_index(mesh.triangle_count()));
     for (int t = 0; t < mesh.triangle_count(); ++t) {
       for (int k = 0; k < 3; ++k) {
-        const int face = faces.of_triangle()[index(t)], neighbour = topology.neighbour(t, k);
-        triangle_edge_[index(3 * t + k)] = {FeatureKind::face, face};
-        if (neighbour >= 0 && faces.of_triangle()[index(neighbour)] == face) continue;
-        const auto [low, high] = std::minmax(mesh.triangle(t)[index(k)], mesh.triangle(t)[index((k + 1) % 3)]);
+        const int face = faces.of_triangle()[as_index(t)], neighbour = topology.neighbour(t, k);
+        triangle_edge_[as_index(3 * t + k)] = {FeatureKind::face, face};
+        if (neighbour >= 0 && faces.of_triangle()[as_index(neighbour)] == face) continue;
+        const auto [low, high] = std::minmax(mesh.triangle(t)[as_index(k)], mesh.triangle(t)[as_index((k + 1) % 3)]);
         if (low != high) all_slots.push_back({low, high, 3 * t + k});
       }
     }
@@ -51,8 +51,8 @@ class SharpEdges {
       const int triangle = slot.slot / 3;
       if (edges_.empty() || edges_.back().ends != std::array<int, 2>{slot.low, slot.high})
         edges_.push_back({{slot.low, slot.high}, convexity_of(mesh, faces, triangle, slot.slot % 3), {}});
-      triangle_edge_[index(slot.slot)] = {FeatureKind::edge, int(edges_.size()) - 1};
-      edges_.back().faces.push_back(faces.of_triangle()[index(triangle)]);
+      triangle_edge_[as_index(slot.slot)] = {FeatureKind::edge, int(edges_.size()) - 1};
+      edges_.back().faces.push_back(faces.of_triangle()[as_index(triangle)]);
     }
     for (MeshEdge& edge : edges_) {
       std::sort(edge.faces.begin(), edge.faces.end());
@@ -86,8 +86,8 @@ class SharpEdges {
     if (known != Convexity::flat) return known;
     // Between two faces all the same: one of the triangles has no area. Then the planes of the faces tell.
     const int neighbour = mesh.topology().neighbour(triangle, k);
-    const Vector3<Scalar> along = mesh.vertex(mesh.triangle(triangle)[index((k + 1) % 3)]) - mesh.vertex(mesh.triangle(triangle)[index(k)]);
-    const auto normal_at = [&](int t) { return faces.faces()[index(faces.of_triangle()[index(t)])].normal; };
+    const Vector3<Scalar> along = mesh.vertex(mesh.triangle(triangle)[as_index((k + 1) % 3)]) - mesh.vertex(mesh.triangle(triangle)[as_index(k)]);
+    const auto normal_at = [&](int t) { return faces.faces()[as_index(faces.of_triangle()[as_index(t)])].normal; };
     const Vector3<Scalar> turn = normal_at(triangle).cross(normal_at(neighbour));
     return turn.dot(along) < Scalar(0) ? Convexity::concave : Convexity::convex;
   }

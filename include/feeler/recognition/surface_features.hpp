@@ -98,20 +98,20 @@ class SurfaceFeatures {
     const detail::NumberLists edges_of(mesh.vertex_count(), std::move(at_vertex));
     const detail::NumberLists faces_of(mesh.vertex_count(), std::move(faces_at_vertex));
 
-    vertex_feature_.resize(index(mesh.vertex_count()));
-    std::vector<int> corners(index(mesh.vertex_count()), -1);
+    vertex_feature_.resize(as_index(mesh.vertex_count()));
+    std::vector<int> corners(as_index(mesh.vertex_count()), -1);
     for (int v = 0; v < mesh.vertex_count(); ++v) {
       const auto edges = edges_of[v];
       const auto faces = faces_of[v];
       if (edges.empty() && faces.size() <= 1) {
-        vertex_feature_[index(v)] = {FeatureKind::face, faces[0]};
+        vertex_feature_[as_index(v)] = {FeatureKind::face, faces[0]};
       } else if (edges.size() == 2 &&
-                 detail::SharpEdges<Scalar>::continues(mesh, v, sharp.edges()[index(edges[0])], sharp.edges()[index(edges[1])], faces.size())) {
+                 detail::SharpEdges<Scalar>::continues(mesh, v, sharp.edges()[as_index(edges[0])], sharp.edges()[as_index(edges[1])], faces.size())) {
         const int a = lines.root(edges[0]), b = lines.root(edges[1]);
         lines.join((std::max)(a, b), (std::min)(a, b));
       } else {
-        corners[index(v)] = vertex_count();
-        vertex_feature_[index(v)] = {FeatureKind::vertex, vertex_count()};
+        corners[as_index(v)] = vertex_count();
+        vertex_feature_[as_index(v)] = {FeatureKind::vertex, vertex_count()};
         for (const int f : faces) incidences.vertex_faces.emplace_back(vertex_count(), f);
         vertices_.push_back({v, false, false, false, mesh.vertex(v)});
       }
@@ -123,7 +123,7 @@ class SurfaceFeatures {
   void find_edges(const detail::SharpEdges<Scalar>& sharp, detail::DisjointSets& lines, const std::vector<int>& corners, Incidences& incidences) {
     std::vector<int> number(sharp.edges().size(), -1);
     for (std::size_t e = 0; e < sharp.edges().size(); ++e) {
-      const auto root = index(lines.root(int(e)));
+      const auto root = as_index(lines.root(int(e)));
       const detail::MeshEdge& first = sharp.edges()[root];
       if (number[root] < 0) {
         number[root] = edge_count();
@@ -134,22 +134,22 @@ class SurfaceFeatures {
       }
       number[e] = number[root];
       for (const int end : sharp.edges()[e].ends) {
-        const int corner = corners[index(end)];
+        const int corner = corners[as_index(end)];
         if (corner < 0) {
-          vertex_feature_[index(end)] = {FeatureKind::edge, number[e]};
+          vertex_feature_[as_index(end)] = {FeatureKind::edge, number[e]};
           continue;
         }
-        auto& both = incidences.edge_ends[index(number[e])];
+        auto& both = incidences.edge_ends[as_index(number[e])];
         (both[0] < 0 ? both[0] : both[1]) = corner;
-        note_edge(sharp.edges()[e].convexity, vertices_[index(corner)]);
+        note_edge(sharp.edges()[e].convexity, vertices_[as_index(corner)]);
       }
     }
     for (std::size_t e = 0; e < edges_.size(); ++e) {
-      edges_[e].start = vertices_[index(incidences.edge_ends[e][0])].point;
-      edges_[e].end = vertices_[index(incidences.edge_ends[e][1])].point;
+      edges_[e].start = vertices_[as_index(incidences.edge_ends[e][0])].point;
+      edges_[e].end = vertices_[as_index(incidences.edge_ends[e][1])].point;
     }
     for (Feature& feature : triangle_edge_)
-      if (feature.kind == FeatureKind::edge) feature.index = number[index(feature.index)];
+      if (feature.kind == FeatureKind::edge) feature.index = number[as_index(feature.index)];
   }
 
   /// An edge ends in a vertex.

@@ -59,7 +59,7 @@ class RenderedScene {
     for (int i = 0; i < piece_count(); ++i) {
       incidences_.push_back(incidence_of(piece(i)));
       radii_.push_back(radius_about(piece(i), reference_));
-      radius_ = (std::max)(radius_, radii_[index(i)]);
+      radius_ = (std::max)(radius_, radii_[as_index(i)]);
     }
     const SceneRounding<MeshScalar, Scalar> rounding(object, tool_, reference_);
     const Scalar of_poses = std::is_same_v<MeshScalar, Scalar> ? Scalar(0) : rounding.of_poses();
@@ -90,7 +90,7 @@ class RenderedScene {
   {
     return piece_tree_.nodes();
   }
-  const FeatureIncidence& incidence(int i) const noexcept { return incidences_[index(i)]; }
+  const FeatureIncidence& incidence(int i) const noexcept { return incidences_[as_index(i)]; }
   const Settings<MeshScalar>& settings() const noexcept { return settings_; }
   /// In the tool frame [m].
   const Vector3<Scalar>& reference() const noexcept { return reference_; }
@@ -140,7 +140,7 @@ class RenderedScene {
   Pose<MeshScalar> tool_pose(const Pose<Scalar>& pose) const noexcept { return tool_frame(pose).template cast<MeshScalar>(); }
   /// A piece of the tool on a motion of the whole.
   MovingTool<Piece> moving(int i, const Pose<Scalar>& from, const Twist<Scalar>& motion) const noexcept {
-    return {piece(i), reference_, radii_[index(i)], from, motion};
+    return {piece(i), reference_, radii_[as_index(i)], from, motion};
   }
   /// The box of a group of pieces on a motion of the whole.
   MovingTool<Box<Scalar>> moving(const PieceGroup<Scalar>& group, const Pose<Scalar>& from, const Twist<Scalar>& motion) const noexcept {

@@ -69,7 +69,7 @@ class SupportBlocks {
   };
 
   int block_count() const noexcept { return int(blocks_.size()); }
-  Vector3<Scalar> point_of(int place) const { return points_[index(numbers_[index((std::min)(place, count() - 1))])]; }
+  Vector3<Scalar> point_of(int place) const { return points_[as_index(numbers_[as_index((std::min)(place, count() - 1))])]; }
 
   /// Orders a range of the points so that each eight of them are neighbours: halves it across its longest side.
   void gather_neighbours(int begin, int end) {
@@ -78,7 +78,7 @@ class SupportBlocks {
     Eigen::Index side;
     (all.upper - all.lower).maxCoeff(&side);
     const int middle = begin + ((end - begin + width - 1) / width + 1) / 2 * width;
-    const auto is_lower = [&](int a, int b) { return points_[index(a)][side] < points_[index(b)][side]; };
+    const auto is_lower = [&](int a, int b) { return points_[as_index(a)][side] < points_[as_index(b)][side]; };
     std::nth_element(numbers_.begin() + begin, numbers_.begin() + middle, numbers_.begin() + end, is_lower);
     gather_neighbours(begin, middle);
     gather_neighbours(middle, end);
@@ -90,7 +90,7 @@ class SupportBlocks {
     blocks_.push_back(block);
   }
   static void put(Coordinates& coordinates, int lane, const Vector3<Scalar>& point) {
-    for (int k = 0; k < 3; ++k) coordinates[index(k * width + lane)] = point[k];
+    for (int k = 0; k < 3; ++k) coordinates[as_index(k * width + lane)] = point[k];
   }
   /// Levels of boxes, the lowest around blocks, until one node is left.
   void make_boxes() {
@@ -101,7 +101,7 @@ class SupportBlocks {
       std::vector<Node> nodes;
       std::vector<Limits> above;
       const int size = int(limits.size());
-      const auto child = [&](int i) { return limits[index((std::min)(i, size - 1))]; };
+      const auto child = [&](int i) { return limits[as_index((std::min)(i, size - 1))]; };
       for (int i = 0; i < size; i += width) {
         Node node;
         for (int j = 0; j < width; ++j) {
@@ -150,13 +150,13 @@ class SupportBlocks {
   /// Looks into the boxes of a node that may hold more than is found, the highest first.
   void look_into(int level, int number, Search& search) const noexcept {
     if (level < 0) return look_at(number, search);
-    const Node& node = levels_[index(level)][index(number)];
+    const Node& node = levels_[as_index(level)][as_index(number)];
     alignas(64) Scalar bounds[width];
     Eigen::Map<Lanes, Eigen::Aligned64> all(bounds);
     all = along(node.centres, search.direction) + along(node.half_extents, search.extents);
     const Scalar highest = all.maxCoeff();
     const int first = first_at(bounds, highest);
-    const int last = int(level > 0 ? levels_[index(level - 1)].size() : blocks_.size()) - 1;
+    const int last = int(level > 0 ? levels_[as_index(level - 1)].size() : blocks_.size()) - 1;
     const auto is_worth_it = [&](int i) { return bounds[i] > search.height + search.slack; };
     if (is_worth_it(first)) look_into(level - 1, (std::min)(number * width + first, last), search);
     for (int i = 0; i < width && number * width + i <= last; ++i) {
@@ -170,7 +170,7 @@ class SupportBlocks {
     const Scalar highest = all.maxCoeff();
     if (!(highest > search.height)) return;
     search.height = highest;
-    search.point = numbers_[index((std::min)(block * width + first_at(dots, highest), count() - 1))];
+    search.point = numbers_[as_index((std::min)(block * width + first_at(dots, highest), count() - 1))];
   }
 
   /// The first of eight that has a value; 0 if none has.
@@ -180,7 +180,7 @@ class SupportBlocks {
     return values[0] == value ? 0 : lane;
   }
   /// The dot products of a block.
-  Lanes heights(int block, const Vector3<Scalar>& direction) const noexcept { return along(blocks_[index(block)], direction); }
+  Lanes heights(int block, const Vector3<Scalar>& direction) const noexcept { return along(blocks_[as_index(block)], direction); }
   static Lanes along(const Coordinates& c, const Vector3<Scalar>& direction) noexcept {
     using Map = Eigen::Map<const Lanes>;
     return Map(c.data()) * direction.x() + Map(c.data() + width) * direction.y() + Map(c.data() + 2 * width) * direction.z();

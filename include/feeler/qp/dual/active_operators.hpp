@@ -52,13 +52,13 @@ class ActiveOperators {
   }
 
   int used() const noexcept { return used_; }
-  const Six<Scalar>& normal(int slot) const noexcept { return normals_[index(slot)]; }
+  const Six<Scalar>& normal(int slot) const noexcept { return normals_[as_index(slot)]; }
   /// Row of N*: the step that moves along this active row by one and along no other.
   Six<Scalar> dual(int slot) noexcept {
     catch_up();
     Six<Scalar> row;
 #pragma GCC unroll 6
-    for (std::size_t j = 0; j < 6; ++j) row[j] = duals_[j][index(slot)];
+    for (std::size_t j = 0; j < 6; ++j) row[j] = duals_[j][as_index(slot)];
     return row;
   }
   SixBySix<Scalar> projector() noexcept {
@@ -88,7 +88,7 @@ class ActiveOperators {
   /// Removes from P·v what rounding left of it along the active rows.
   void project_again() noexcept {
     Six<Scalar> along{};
-    for (int i = 0; i < used_; ++i) along[index(i)] = dot_of_six<Scalar>(normal(i), image_.step);
+    for (int i = 0; i < used_; ++i) along[as_index(i)] = dot_of_six<Scalar>(normal(i), image_.step);
     const Six<Scalar> excess = step_of(along);
 #pragma GCC unroll 6
     for (std::size_t j = 0; j < 6; ++j) image_.step[j] -= excess[j];
@@ -98,7 +98,7 @@ class ActiveOperators {
   Six<Scalar> step_of(const Six<Scalar>& along) noexcept {
     catch_up();
     Six<Scalar> step{};
-    for (std::size_t i = 0; i < index(used_); ++i) {
+    for (std::size_t i = 0; i < as_index(used_); ++i) {
 #pragma GCC unroll 6
       for (std::size_t j = 0; j < 6; ++j) step[j] += product(along[i], duals_[j][i]);
     }
@@ -110,7 +110,7 @@ class ActiveOperators {
   /// What this changes is computed once it is asked for: of the last row to be added it seldom is.
   /// @param slope  row · P · row, positive
   void add(const Six<Scalar>& row, const Scalar& slope) noexcept {
-    normals_[index(used_)] = row;
+    normals_[as_index(used_)] = row;
     ++used_;
     is_behind_ = true;
     slope_ = slope;
@@ -133,10 +133,10 @@ class ActiveOperators {
     subtract_outer(projector_, 6, gained, direction);
     subtract_outer(duals_, used_, image_.share, direction);
     for (Column& column : duals_) {
-      set_lane<lanes>(column.data(), slot, column[index(last)]);
+      set_lane<lanes>(column.data(), slot, column[as_index(last)]);
       set_lane<lanes>(column.data(), last, Scalar(0));
     }
-    normals_[index(slot)] = normals_[index(last)];
+    normals_[as_index(slot)] = normals_[as_index(last)];
     used_ = last;
   }
 
@@ -150,7 +150,7 @@ class ActiveOperators {
     const SixBySix<Scalar> w = inverse.root();
     OrthonormalBasis<Scalar> basis;
     SixBySix<Scalar> r{};  // by columns
-    for (std::size_t i = 0; i < index(used_); ++i) {
+    for (std::size_t i = 0; i < as_index(used_); ++i) {
       Six<Scalar> v = multiply(w, normals_[i]);
       r[i][i] = basis.orthogonalise(v, r[i]);
       basis.append(v, r[i][i]);
@@ -176,7 +176,7 @@ class ActiveOperators {
   /// @param r  by columns, upper triangular
   void rebuild_duals(const SixBySix<Scalar>& w, const OrthonormalBasis<Scalar>& q, const SixBySix<Scalar>& r) noexcept {
     duals_ = {};
-    const std::size_t count = index(used_);
+    const std::size_t count = as_index(used_);
     for (std::size_t i = count; i-- > 0;) {
       Six<Scalar> row = multiply_transposed(w, q[i]);
       for (std::size_t k = i + 1; k < count; ++k) {
@@ -203,7 +203,7 @@ class ActiveOperators {
   void spread_diagonal() noexcept {
 #pragma GCC unroll 6
     for (int j = 0; j < 6; ++j) {
-      for (int g = 0; g < 6; g += lanes) store(&projector_[index(j)][index(g)], with_lane<Scalar, lanes>(Group{}, j - g, diagonal_[index(j)]));
+      for (int g = 0; g < 6; g += lanes) store(&projector_[as_index(j)][as_index(g)], with_lane<Scalar, lanes>(Group{}, j - g, diagonal_[as_index(j)]));
     }
   }
 
@@ -221,30 +221,30 @@ class ActiveOperators {
     // With a share of −1 the row's own numbers, 0 until now, become the direction.
     Group shares{};
     if (slot == first) {
-      for (Column& column : duals_) store(&column[index(first)], Group{});
+      for (Column& column : duals_) store(&column[as_index(first)], Group{});
     } else {
-      shares = load<Group>(&image_.share[index(first)]);
+      shares = load<Group>(&image_.share[as_index(first)]);
     }
-    store(&image_.share[index(first)], with_lane<Scalar, lanes>(shares, slot - first, Scalar(-1)));
+    store(&image_.share[as_index(first)], with_lane<Scalar, lanes>(shares, slot - first, Scalar(-1)));
     subtract_outer(duals_, used_, image_.share, direction);
   }
 
   /// The first `count` rows of a matrix times a vector.
-  static void multiply_columns(const Columns& columns, int count, const SixGroups& at, Column& image) noexcept {
-    for (std::size_t g = 0; g < index(count); g += std::size_t(lanes)) {
+  static void multiply_columns(const Columns& table, int count, const SixGroups& at, Column& image) noexcept {
+    for (std::size_t g = 0; g < as_index(count); g += std::size_t(lanes)) {
       SixGroups column;
 #pragma GCC unroll 6
-      for (std::size_t j = 0; j < 6; ++j) column[j] = load<Group>(&columns[j][g]);
+      for (std::size_t j = 0; j < 6; ++j) column[j] = load<Group>(&table[j][g]);
       store(&image[g], dot_of_six<Group>(column, at));
     }
   }
-  static void subtract_outer(Columns& columns, int count, const Column& left, const Six<Scalar>& right) noexcept {
-    for (std::size_t g = 0; g < index(count); g += std::size_t(lanes)) {
+  static void subtract_outer(Columns& table, int count, const Column& left, const Six<Scalar>& right) noexcept {
+    for (std::size_t g = 0; g < as_index(count); g += std::size_t(lanes)) {
       const Group entries = load<Group>(&left[g]);
 #pragma GCC unroll 6
       for (std::size_t j = 0; j < 6; ++j) {
         const Group change = product<Group>(entries, spread<Group>(right[j]));
-        store(&columns[j][g], Group(load<Group>(&columns[j][g]) - change));
+        store(&table[j][g], Group(load<Group>(&table[j][g]) - change));
       }
     }
   }

@@ -60,7 +60,7 @@ class DualTableau {
     if (!is_inverted_) invert();
     Six<Scalar> change{};
     for (int k = 0; k < active_.rows.size(); ++k) {
-      for (int i = 0; i < active_.rows.size(); ++i) change[index(i)] += product(inverse_[index(k)][index(i)], distances[index(k)]);
+      for (int i = 0; i < active_.rows.size(); ++i) change[as_index(i)] += product(inverse_[as_index(k)][as_index(i)], distances[as_index(k)]);
     }
     return change;
   }
@@ -110,15 +110,15 @@ class DualTableau {
     is_inverted_ = true;
     for (int k = 0; k < active_.rows.size(); ++k) {
       for (int i = 0; i <= k; ++i) {
-        const Scalar share = product(table_.number_of_swept(active_.rows[i], active_.rows[k]), units_[index(i)]);
-        inverse_[index(k)][index(i)] = inverse_[index(i)][index(k)] = -product(share, units_[index(k)]);
+        const Scalar share = product(table_.number_of_swept(active_.rows[i], active_.rows[k]), units_[as_index(i)]);
+        inverse_[as_index(k)][as_index(i)] = inverse_[as_index(i)][as_index(k)] = -product(share, units_[as_index(k)]);
       }
     }
   }
 
   /// Makes a row active, whatever leaves for it; returns the row to add next, or `none`, or `given_up`.
   [[gnu::always_inline]] inline int add(int entering, Scalar tolerance) noexcept {
-    const std::size_t row = index(entering);
+    const std::size_t row = as_index(entering);
     const Scalar unconstrained = Scalar(1 / least_share) * least_weight_[row];
     Values* column = &table_.column(rows_, entering);
     for (Scalar multiplier(0); !table_.is_full();) {
@@ -138,8 +138,8 @@ class DualTableau {
       if (leaving < 0) {
         const int next = advance(*column, step, inverse, tolerance);
         violation_[row] = -std::numeric_limits<Scalar>::infinity();
-        multipliers_[index(active_.rows.size())] = multiplier;
-        units_[index(active_.rows.size())] = inverse;
+        multipliers_[as_index(active_.rows.size())] = multiplier;
+        units_[as_index(active_.rows.size())] = inverse;
         active_.rows.push_back(entering);
         is_inverted_ = false;
         is_behind_ = next < 0;
@@ -161,26 +161,26 @@ class DualTableau {
   void measure_again(int entering, const Scalar& unconstrained, Values& column) noexcept {
     const int count = active_.rows.size();
     Six<Scalar> rest = rows_.row(entering), share{};
-    for (int i = 0; i < count; ++i) share[index(i)] = share_of(i, column);
+    for (int i = 0; i < count; ++i) share[as_index(i)] = share_of(i, column);
     take(share, rest);
     if (dot(rows_.scaled(rest), rest) > product(independent(), unconstrained)) {
       Six<Scalar> along{};
-      for (int i = 0; i < count; ++i) along[index(i)] = dot(rows_.scaled(rows_.row(active_.rows[i])), rest);
+      for (int i = 0; i < count; ++i) along[as_index(i)] = dot(rows_.scaled(rows_.row(active_.rows[i])), rest);
       const Six<Scalar> change = change_for(along);
       take(change, rest);
-      for (int i = 0; i < count; ++i) share[index(i)] += change[index(i)];
+      for (int i = 0; i < count; ++i) share[as_index(i)] += change[as_index(i)];
     }
     const Six<Scalar> scaled = rows_.scaled(rest);
     const auto by = spread_six<Group>(scaled);
     for (int k = 0; k < count_; k += lanes) column.set(k, dot_of_six<Group>(rows_.at(k), by));
-    for (int i = 0; i < count; ++i) column[index(active_.rows[i])] = share[index(i)] / units_[index(i)];
-    column[index(entering)] = dot(scaled, rest);
-    weight_[index(entering)] = column[index(entering)];
+    for (int i = 0; i < count; ++i) column[as_index(active_.rows[i])] = share[as_index(i)] / units_[as_index(i)];
+    column[as_index(entering)] = dot(scaled, rest);
+    weight_[as_index(entering)] = column[as_index(entering)];
     table_.note_measured();
   }
   /// Takes shares of the active rows from one.
   void take(const Six<Scalar>& shares, Six<Scalar>& rest) const noexcept {
-    for (int i = 0; i < active_.rows.size(); ++i) subtract(rows_.row(active_.rows[i]), shares[index(i)], rest);
+    for (int i = 0; i < active_.rows.size(); ++i) subtract(rows_.row(active_.rows[i]), shares[as_index(i)], rest);
   }
 
   /// The active row, by its place, whose force ends first within a step, which ends there; −1 if none does.
@@ -191,8 +191,8 @@ class DualTableau {
     for (int i = 0; i < active_.rows.size(); ++i) {
       const Scalar share = share_of(i, column);
       // Seldom so: the sign of a share, looked at first, would be a branch that no processor foresees.
-      if (multipliers_[index(i)] < product(step, share) && share > Scalar(0) && counts(active_.rows[i], share)) {
-        step = multipliers_[index(i)] / share;
+      if (multipliers_[as_index(i)] < product(step, share) && share > Scalar(0) && counts(active_.rows[i], share)) {
+        step = multipliers_[as_index(i)] / share;
         leaving = i;
       }
     }
@@ -204,14 +204,14 @@ class DualTableau {
   /// The same of active rows whose sum a row is: shares that rounding makes do not count.
   int first_of_sum(int entering, const Values& column, Scalar& step) const noexcept {
     constexpr double rounding = 1e-10;
-    const Scalar least = Scalar(rounding * rounding) * least_weight_[index(entering)];
-    return first_to_leave(column, step, [&](int row, const Scalar& share) { return product(share, share) * least_weight_[index(row)] > least; });
+    const Scalar least = Scalar(rounding * rounding) * least_weight_[as_index(entering)];
+    return first_to_leave(column, step, [&](int row, const Scalar& share) { return product(share, share) * least_weight_[as_index(row)] > least; });
   }
   void push(const Values& column, Scalar step) noexcept {
     for (int i = 0; i < active_.rows.size(); ++i)
-      multipliers_[index(i)] = greater<Scalar>(multipliers_[index(i)] - product(step, share_of(i, column)), Scalar(0));
+      multipliers_[as_index(i)] = greater<Scalar>(multipliers_[as_index(i)] - product(step, share_of(i, column)), Scalar(0));
   }
-  Scalar share_of(int i, const Values& column) const noexcept { return product(column[index(active_.rows[i])], units_[index(i)]); }
+  Scalar share_of(int i, const Values& column) const noexcept { return product(column[as_index(active_.rows[i])], units_[as_index(i)]); }
 
   /// Violations after a step, weights after its row is active, and the row to add next, or −1.
   /// @param inverse  of the row's weight
@@ -233,7 +233,7 @@ class DualTableau {
   /// No step meets a row, and no force that ends makes one.
   void refuse(int row, const Values& column) noexcept {
     refused_ = row;
-    for (int i = 0; i < active_.rows.size(); ++i) shares_[index(i)] = (std::min)(Scalar(0), share_of(i, column));
+    for (int i = 0; i < active_.rows.size(); ++i) shares_[as_index(i)] = (std::min)(Scalar(0), share_of(i, column));
   }
   /// Brings the table up to the row that became active last.
   void sweep_last() noexcept { table_.add(active_.rows.back()); }
@@ -243,7 +243,7 @@ class DualTableau {
   void drop(int leaving, const Values& column, Scalar length) noexcept {
     const int row = active_.rows[leaving];
     Values& own = table_.active_column(rows_, row);
-    const Scalar pivot = own[index(row)], inverse = Scalar(1) / pivot, scale = Scalar(-1) / product(units_[index(leaving)], pivot);
+    const Scalar pivot = own[as_index(row)], inverse = Scalar(1) / pivot, scale = Scalar(-1) / product(units_[as_index(leaving)], pivot);
     const Group step = spread<Group>(length), factor = spread<Group>(inverse);
     for (int k = 0; k < count_; k += lanes) {
       const Group c = own.at(k), shares = product(factor, c);
@@ -252,12 +252,12 @@ class DualTableau {
       table_.set_shares(k, shares);
     }
     table_.drop(row, scale);
-    violation_[index(row)] = Scalar(0);
-    weight_[index(row)] = -product(product(pivot, scale), scale);
+    violation_[as_index(row)] = Scalar(0);
+    weight_[as_index(row)] = -product(product(pivot, scale), scale);
     active_.rows.swap_remove(leaving);
     is_inverted_ = false;
-    multipliers_[index(leaving)] = multipliers_[index(active_.rows.size())];
-    units_[index(leaving)] = units_[index(active_.rows.size())];
+    multipliers_[as_index(leaving)] = multipliers_[as_index(active_.rows.size())];
+    units_[as_index(leaving)] = units_[as_index(active_.rows.size())];
   }
 
   Table table_;

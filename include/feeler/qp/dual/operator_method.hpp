@@ -53,7 +53,7 @@ class OperatorMethod {
       return in_doubt;
     }
     copy_six(pair_.x().data(), solution.step.data());
-    for (int i = 0; i < pair_.rows().size(); ++i) solution.active.push_back({pair_.rows()[i], pair_.multipliers()[index(i)]});
+    for (int i = 0; i < pair_.rows().size(); ++i) solution.active.push_back({pair_.rows()[i], pair_.multipliers()[as_index(i)]});
     return status;
   }
 
@@ -94,7 +94,7 @@ class OperatorMethod {
     constexpr double share = 0.875;
     for (int k = 0; k < problem.row_count; ++k) {
       const Scalar allowed = tolerance_ + product(rounding, norm1(row_of(problem, k)));
-      relaxed_bounds_[index(k)] = problem.bounds[index(k)] - product(Scalar(share), allowed);
+      relaxed_bounds_[as_index(k)] = problem.bounds[as_index(k)] - product(Scalar(share), allowed);
     }
     bounds_ = relaxed_bounds_.data();
     accepted_ = Scalar(1 - share) * tolerance_;
@@ -211,9 +211,9 @@ class OperatorMethod {
     Six residual, lacking{}, force{};
     Scalar beside(0);
     for (int i = 0; i < pair_.rows().size(); ++i) {
-      lacking[index(i)] = bounds_[pair_.rows()[i]] - dot(pair_.operators().normal(i), pair_.x());
-      beside = (std::max)(beside, magnitude(lacking[index(i)]));
-      subtract(pair_.operators().normal(i), Scalar(-pair_.multipliers()[index(i)]), force);
+      lacking[as_index(i)] = bounds_[pair_.rows()[i]] - dot(pair_.operators().normal(i), pair_.x());
+      beside = (std::max)(beside, magnitude(lacking[as_index(i)]));
+      subtract(pair_.operators().normal(i), Scalar(-pair_.multipliers()[as_index(i)]), force);
     }
     if (!kkt_check(problem).fails(*inverse_, *gradient_, pair_.x(), pair_.rows(), pair_.multipliers(), force, lacking, beside, residual))
       return false;

@@ -67,21 +67,21 @@ class RowScan {
   /// Computes violations at x afresh, less what rounding makes of them.
   void measure(const Problem& problem, const Scalar* bounds, const Six<Scalar>& x, Scalar rounding) noexcept {
     const Excess excess(bounds, x, rounding);
-    for (int k = 0; k < problem.row_count; k += coarse_lanes) store(&violation_[index(k)], coarse_violation(problem, k, excess));
+    for (int k = 0; k < problem.row_count; k += coarse_lanes) store(&violation_[as_index(k)], coarse_violation(problem, k, excess));
   }
 
   /// An active row is not violated, whatever rounding says.
-  void set_active(int k) noexcept { violation_[index(k)] = -std::numeric_limits<Coarse>::infinity(); }
-  void set_violation(int k, Scalar violation) noexcept { violation_[index(k)] = Coarse(violation); }
+  void set_active(int k) noexcept { violation_[as_index(k)] = -std::numeric_limits<Coarse>::infinity(); }
+  void set_violation(int k, Scalar violation) noexcept { violation_[as_index(k)] = Coarse(violation); }
 
   /// About aₖᵀH⁻¹aₖ; too much, or NaN, where single precision does not hold it.
-  Scalar rough_unconstrained_weight(int k) const noexcept { return Scalar(least_weight_[index(k)]) * Scalar(1 / least_share); }
+  Scalar rough_unconstrained_weight(int k) const noexcept { return Scalar(least_weight_[as_index(k)]) * Scalar(1 / least_share); }
 
   /// The row to add; −1 if none is violated by more than `tolerance`, and also where no score is a number.
   int select(const Problem& problem, Scalar tolerance) const noexcept {
     const CoarseGroup threshold = spread<CoarseGroup>(Coarse(tolerance));
     Best best;
-    for (int k = 0; k < problem.row_count; k += coarse_lanes) best.meet(load<CoarseGroup>(&violation_[index(k)]), weight_at(k), threshold);
+    for (int k = 0; k < problem.row_count; k += coarse_lanes) best.meet(load<CoarseGroup>(&violation_[as_index(k)]), weight_at(k), threshold);
     return best.row();
   }
 
@@ -96,9 +96,9 @@ class RowScan {
     const int count = problem.row_count;
     for (int k = 0; k < count; k += coarse_lanes) {
       const CoarseGroup along = dot_of_six<CoarseGroup>(coarse_rows(problem, k), direction);
-      const CoarseGroup violation = load<CoarseGroup>(&violation_[index(k)]) - product(step, along);
-      store(&violation_[index(k)], violation);
-      store(&weight_[index(k)], CoarseGroup(load<CoarseGroup>(&weight_[index(k)]) - product(product(factor, along), along)));
+      const CoarseGroup violation = load<CoarseGroup>(&violation_[as_index(k)]) - product(step, along);
+      store(&violation_[as_index(k)], violation);
+      store(&weight_[as_index(k)], CoarseGroup(load<CoarseGroup>(&weight_[as_index(k)]) - product(product(factor, along), along)));
       best.meet(violation, weight_at(k), threshold);
     }
     return best.row();
@@ -114,8 +114,8 @@ class RowScan {
     for (int k = 0; k < count; k += coarse_lanes) {
       const SixCoarse a = coarse_rows(problem, k);
       const CoarseGroup along = dot_of_six<CoarseGroup>(a, direction), gained = dot_of_six<CoarseGroup>(a, freed);
-      store(&violation_[index(k)], CoarseGroup(load<CoarseGroup>(&violation_[index(k)]) - product(step, along)));
-      store(&weight_[index(k)], CoarseGroup(load<CoarseGroup>(&weight_[index(k)]) + product(product(factor, gained), gained)));
+      store(&violation_[as_index(k)], CoarseGroup(load<CoarseGroup>(&violation_[as_index(k)]) - product(step, along)));
+      store(&weight_[as_index(k)], CoarseGroup(load<CoarseGroup>(&weight_[as_index(k)]) + product(product(factor, gained), gained)));
     }
   }
 
@@ -210,14 +210,14 @@ class RowScan {
     if constexpr (is_rounded) {
       SixCoarse a;
 #pragma GCC unroll 6
-      for (std::size_t j = 0; j < 6; ++j) a[j] = load<CoarseGroup>(&rows_[j][index(k)]);
+      for (std::size_t j = 0; j < 6; ++j) a[j] = load<CoarseGroup>(&rows_[j][as_index(k)]);
       return a;
     } else {
       return rows_of<Group>(problem, k);
     }
   }
   [[gnu::always_inline]] CoarseGroup weight_at(int k) const noexcept {
-    return greater(load<CoarseGroup>(&weight_[index(k)]), load<CoarseGroup>(&least_weight_[index(k)]));
+    return greater(load<CoarseGroup>(&weight_[as_index(k)]), load<CoarseGroup>(&least_weight_[as_index(k)]));
   }
 
   /// Computes the groups of `Scalar` from row k on that make one group, and rounds them.
@@ -234,8 +234,8 @@ class RowScan {
 #pragma GCC unroll 6
     for (int j = 0; j < 6; ++j) {
       const CoarseGroup entries = coarse_group(k, [&](int at) { return load<Group>(problem.rows.column(j) + at); });
-      if constexpr (is_rounded) store(&rows_[index(j)][index(k)], entries);
-      a[index(j)] = entries;
+      if constexpr (is_rounded) store(&rows_[as_index(j)][as_index(k)], entries);
+      a[as_index(j)] = entries;
     }
     return a;
   }
@@ -254,9 +254,9 @@ class RowScan {
     for (int k = 0; k < problem.row_count; k += coarse_lanes) {
       const CoarseGroup violation = coarse_violation(problem, k, violation_of);
       const CoarseGroup weight = form(round_rows(problem, k)) + least;
-      store(&violation_[index(k)], violation);
-      store(&weight_[index(k)], weight);
-      store(&least_weight_[index(k)], CoarseGroup(product(share, weight) + least));
+      store(&violation_[as_index(k)], violation);
+      store(&weight_[as_index(k)], weight);
+      store(&least_weight_[as_index(k)], CoarseGroup(product(share, weight) + least));
       best.meet(violation, weight, threshold);
     }
     return best.row();
@@ -267,8 +267,8 @@ class RowScan {
     const CoarseGroup share = spread<CoarseGroup>(Coarse(least_share)), least = spread<CoarseGroup>(smallest_weight<Coarse>());
     for (int k = 0; k < problem.row_count; k += coarse_lanes) {
       const SixCoarse a = round_rows(problem, k);
-      store(&weight_[index(k)], free(a));
-      store(&least_weight_[index(k)], CoarseGroup(product(share, unconstrained(a)) + least));
+      store(&weight_[as_index(k)], free(a));
+      store(&least_weight_[as_index(k)], CoarseGroup(product(share, unconstrained(a)) + least));
     }
   }
 

@@ -55,7 +55,7 @@ class SolutionPair {
     using std::isfinite;
     Scalar sum(0);
     for (const Scalar& coordinate : x_) sum += abs(coordinate);
-    for (int i = 0; i < rows_.size(); ++i) sum += multipliers_[index(i)];
+    for (int i = 0; i < rows_.size(); ++i) sum += multipliers_[as_index(i)];
     return isfinite(sum);
   }
 
@@ -71,14 +71,14 @@ class SolutionPair {
   void move_multipliers(const Scalar& step) noexcept {
     using Group = Lanes<Scalar, lanes>;
     const Group by = spread<Group>(step);
-    for (std::size_t g = 0; g < index(rows_.size()); g += std::size_t(lanes)) {
+    for (std::size_t g = 0; g < as_index(rows_.size()); g += std::size_t(lanes)) {
       const Group change = product<Group>(by, load<Group>(&operators_.image().share[g]));
       store(&multipliers_[g], Group(load<Group>(&multipliers_[g]) - change));
     }
   }
   void clamp_multipliers() noexcept {
     using Group = Lanes<Scalar, lanes>;
-    for (std::size_t g = 0; g < index(rows_.size()); g += std::size_t(lanes))
+    for (std::size_t g = 0; g < as_index(rows_.size()); g += std::size_t(lanes))
       store(&multipliers_[g], greater<Group>(load<Group>(&multipliers_[g]), Group{}));
   }
 
@@ -86,9 +86,9 @@ class SolutionPair {
   int first_to_leave(Scalar& step) const noexcept {
     int leaving = -1;
     for (int i = 0; i < rows_.size(); ++i) {
-      const Scalar& share = operators_.image().share[index(i)];
-      if (multipliers_[index(i)] < step * share && share > Scalar(0)) {  // in this order, which a processor foresees
-        step = multipliers_[index(i)] / share;
+      const Scalar& share = operators_.image().share[as_index(i)];
+      if (multipliers_[as_index(i)] < step * share && share > Scalar(0)) {  // in this order, which a processor foresees
+        step = multipliers_[as_index(i)] / share;
         leaving = i;
       }
     }
@@ -103,8 +103,8 @@ class SolutionPair {
       if (round > 0) operators_.apply(rest);
       rest = a;
       for (int i = 0; i < rows_.size(); ++i) {
-        Scalar& share = shares[index(i)];
-        share = (std::min)(Scalar(share + operators_.image().share[index(i)]), Scalar(0));
+        Scalar& share = shares[as_index(i)];
+        share = (std::min)(Scalar(share + operators_.image().share[as_index(i)]), Scalar(0));
         subtract(operators_.normal(i), share, rest);
       }
       if (!(norm1(rest) > allowed_rest(a))) return true;
@@ -122,7 +122,7 @@ class SolutionPair {
   /// @param a      the row, last applied to
   /// @param slope  `slope_along(a)`
   void add(int row, const Six& a, const Scalar& multiplier, const Scalar& slope) noexcept {
-    multipliers_[index(rows_.size())] = multiplier;
+    multipliers_[as_index(rows_.size())] = multiplier;
     rows_.push_back(row);
     operators_.add(a, slope);
     if (is_careful_) operators_.rebuild(*inverse_);
@@ -133,7 +133,7 @@ class SolutionPair {
   void drop(int slot, const Six& dual, const Scalar& curvature) noexcept {
     operators_.drop(slot, *inverse_, dual, curvature);
     rows_.swap_remove(slot);
-    multipliers_[index(slot)] = multipliers_[index(rows_.size())];
+    multipliers_[as_index(slot)] = multipliers_[as_index(rows_.size())];
     if (is_careful_) operators_.rebuild(*inverse_);
   }
 

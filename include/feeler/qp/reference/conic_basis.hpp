@@ -20,30 +20,30 @@ class ConicBasis {
  public:
   int size() const noexcept { return size_; }
   /// The number that a row kept was added with.
-  int number(int i) const noexcept { return rows_[index(i)].number; }
-  const Scalar& weight(int i) const noexcept { return rows_[index(i)].weight; }
+  int number(int i) const noexcept { return rows_[as_index(i)].number; }
+  const Scalar& weight(int i) const noexcept { return rows_[as_index(i)].weight; }
 
   /// @param weight  positive
   void add(int number, const Vector6<Scalar>& row, Scalar weight) noexcept {
     const auto e = basis_.expand(row, row);
     const Scalar rounding = 64 * std::numeric_limits<Scalar>::epsilon();
     if (size_ < 6 && e.free_squared > rounding * rounding * e.squared) {
-      rows_[index(size_++)] = {number, weight, row};
+      rows_[as_index(size_++)] = {number, weight, row};
       basis_.add(e);
       return;
     }
     Scalar given = weight;  // to the rows kept
     int leaving = -1;
     for (int i = 0; i < size_; ++i) {
-      const Scalar& share = e.coefficients[index(i)];
-      if (share < Scalar(0) && rows_[index(i)].weight < -share * given) {
-        given = rows_[index(i)].weight / -share;
+      const Scalar& share = e.coefficients[as_index(i)];
+      if (share < Scalar(0) && rows_[as_index(i)].weight < -share * given) {
+        given = rows_[as_index(i)].weight / -share;
         leaving = i;
       }
     }
-    for (int i = 0; i < size_; ++i) rows_[index(i)].weight += given * e.coefficients[index(i)];
+    for (int i = 0; i < size_; ++i) rows_[as_index(i)].weight += given * e.coefficients[as_index(i)];
     if (leaving < 0) return;
-    rows_[index(leaving)] = {number, weight - given, row};
+    rows_[as_index(leaving)] = {number, weight - given, row};
     drop_empty();
   }
 
@@ -59,9 +59,9 @@ class ConicBasis {
     int kept = 0;
     basis_.clear();
     for (int i = 0; i < size_; ++i) {
-      if (!(rows_[index(i)].weight > Scalar(0))) continue;
-      rows_[index(kept)] = rows_[index(i)];
-      basis_.add(basis_.expand(rows_[index(kept)].row, rows_[index(kept)].row));
+      if (!(rows_[as_index(i)].weight > Scalar(0))) continue;
+      rows_[as_index(kept)] = rows_[as_index(i)];
+      basis_.add(basis_.expand(rows_[as_index(kept)].row, rows_[as_index(kept)].row));
       ++kept;
     }
     size_ = kept;

@@ -63,7 +63,7 @@ class InteriorPoint {
  private:
   bool is_free(const Problem& problem, const Vector6<Scalar>& x) const noexcept {
     for (int k = 0; k < row_count_; ++k) {
-      if (problem.bounds[index(k)] - problem.rows[index(k)].dot(x) > accuracy_) return false;
+      if (problem.bounds[as_index(k)] - problem.rows[as_index(k)].dot(x) > accuracy_) return false;
     }
     return true;
   }
@@ -72,25 +72,25 @@ class InteriorPoint {
   void start(const Problem& problem, const Vector6<Scalar>& x) noexcept {
     longest_ = Scalar(0);
     for (int k = 0; k < row_count_; ++k) {
-      const Scalar slack = problem.rows[index(k)].dot(x) - relaxed_bound(problem, k);
-      slacks_[index(k)] = slack;
+      const Scalar slack = problem.rows[as_index(k)].dot(x) - relaxed_bound(problem, k);
+      slacks_[as_index(k)] = slack;
       if (-slack > longest_) longest_ = -slack;
     }
     for (int k = 0; k < row_count_; ++k) {
-      const Scalar compliance = problem.rows[index(k)].dot(hessian_.solve(problem.rows[index(k)]));
-      compliance_[index(k)] = compliance > Scalar(0) ? compliance : Scalar(1);
-      if (slacks_[index(k)] < longest_) slacks_[index(k)] = longest_;
-      multipliers_[index(k)] = longest_ * longest_ / (slacks_[index(k)] * compliance_[index(k)]);
+      const Scalar compliance = problem.rows[as_index(k)].dot(hessian_.solve(problem.rows[as_index(k)]));
+      compliance_[as_index(k)] = compliance > Scalar(0) ? compliance : Scalar(1);
+      if (slacks_[as_index(k)] < longest_) slacks_[as_index(k)] = longest_;
+      multipliers_[as_index(k)] = longest_ * longest_ / (slacks_[as_index(k)] * compliance_[as_index(k)]);
     }
   }
 
-  Scalar relaxed_bound(const Problem& problem, int k) const noexcept { return problem.bounds[index(k)] - accuracy_ / 2; }
+  Scalar relaxed_bound(const Problem& problem, int k) const noexcept { return problem.bounds[as_index(k)] - accuracy_ / 2; }
 
   void residuals(const Problem& problem, const Vector6<Scalar>& x) noexcept {
     dual_residual_ = problem.hessian * x + problem.gradient;
     for (int k = 0; k < row_count_; ++k) {
-      dual_residual_ -= multipliers_[index(k)] * problem.rows[index(k)];
-      primal_residual_[index(k)] = problem.rows[index(k)].dot(x) - relaxed_bound(problem, k) - slacks_[index(k)];
+      dual_residual_ -= multipliers_[as_index(k)] * problem.rows[as_index(k)];
+      primal_residual_[as_index(k)] = problem.rows[as_index(k)].dot(x) - relaxed_bound(problem, k) - slacks_[as_index(k)];
     }
   }
 
@@ -99,8 +99,8 @@ class InteriorPoint {
     const Scalar negligible = accuracy_ / 4;
     Vector6<Scalar> residual = dual_residual_;  // without the rows that do not touch
     for (int k = 0; k < row_count_; ++k) {
-      if (!(primal_residual_[index(k)] > -negligible)) return false;
-      if (slacks_[index(k)] > negligible) residual += multipliers_[index(k)] * problem.rows[index(k)];
+      if (!(primal_residual_[as_index(k)] > -negligible)) return false;
+      if (slacks_[as_index(k)] > negligible) residual += multipliers_[as_index(k)] * problem.rows[as_index(k)];
     }
     const Vector6<Scalar> off = hessian_.solve(residual);
     for (int i = 0; i < 6; ++i) {
@@ -112,7 +112,7 @@ class InteriorPoint {
   Scalar longest_push() const noexcept {
     Scalar longest(0);
     for (int k = 0; k < row_count_; ++k) {
-      const Scalar push = multipliers_[index(k)] * compliance_[index(k)];
+      const Scalar push = multipliers_[as_index(k)] * compliance_[as_index(k)];
       if (push > longest) longest = push;
     }
     return longest;
@@ -123,14 +123,14 @@ class InteriorPoint {
     Matrix6<Scalar> normal = problem.hessian;
     Scalar gap(0);
     for (int k = 0; k < row_count_; ++k) {
-      const Vector6<Scalar> a = problem.rows[index(k)];
-      const Scalar stiffness = multipliers_[index(k)] / softened_slack(k);
+      const Vector6<Scalar> a = problem.rows[as_index(k)];
+      const Scalar stiffness = multipliers_[as_index(k)] / softened_slack(k);
       for (int j = 0; j < 6; ++j) {
         const Scalar scaled = stiffness * a[j];
         for (int i = j; i < 6; ++i) normal(i, j) += scaled * a[i];
       }
-      gap += multipliers_[index(k)] * slacks_[index(k)];
-      products_[index(k)] = multipliers_[index(k)] * slacks_[index(k)];
+      gap += multipliers_[as_index(k)] * slacks_[as_index(k)];
+      products_[as_index(k)] = multipliers_[as_index(k)] * slacks_[as_index(k)];
     }
     if (!newton_.factor(normal)) return false;
 
@@ -138,20 +138,20 @@ class InteriorPoint {
     const Scalar affine = step_length(Scalar(1));
     Scalar affine_gap(0);
     for (int k = 0; k < row_count_; ++k) {
-      affine_gap += (multipliers_[index(k)] + affine * multiplier_steps_[index(k)]) * (slacks_[index(k)] + affine * slack_steps_[index(k)]);
+      affine_gap += (multipliers_[as_index(k)] + affine * multiplier_steps_[as_index(k)]) * (slacks_[as_index(k)] + affine * slack_steps_[as_index(k)]);
     }
     const Scalar ratio = affine_gap / gap;
     const Scalar centre = ratio * ratio * ratio * gap / Scalar(row_count_);
-    for (int k = 0; k < row_count_; ++k) products_[index(k)] += slack_steps_[index(k)] * multiplier_steps_[index(k)] - centre;
+    for (int k = 0; k < row_count_; ++k) products_[as_index(k)] += slack_steps_[as_index(k)] * multiplier_steps_[as_index(k)] - centre;
 
     const Vector6<Scalar> step = direction(problem);
     const Scalar length = step_length(Scalar(0.995));
     if (!(length > Scalar(1e-10))) return false;
     x += length * step;
     for (int k = 0; k < row_count_; ++k) {
-      slacks_[index(k)] += length * slack_steps_[index(k)];
-      multipliers_[index(k)] += length * multiplier_steps_[index(k)];
-      if (!(slacks_[index(k)] > Scalar(0)) || !(multipliers_[index(k)] > Scalar(0))) return false;
+      slacks_[as_index(k)] += length * slack_steps_[as_index(k)];
+      multipliers_[as_index(k)] += length * multiplier_steps_[as_index(k)];
+      if (!(slacks_[as_index(k)] > Scalar(0)) || !(multipliers_[as_index(k)] > Scalar(0))) return false;
     }
     return true;
   }
@@ -159,20 +159,20 @@ class InteriorPoint {
   /// Compliance that a row has in the Newton system [m a multiplier]: bounds the condition of the 6×6 matrix.
   /// The steps converge all the same, because residuals are those of the hard row (a proximal step in the
   /// multipliers).
-  Scalar softness(int k) const noexcept { return 256 * std::numeric_limits<Scalar>::epsilon() * compliance_[index(k)]; }
-  Scalar softened_slack(int k) const noexcept { return slacks_[index(k)] + softness(k) * multipliers_[index(k)]; }
+  Scalar softness(int k) const noexcept { return 256 * std::numeric_limits<Scalar>::epsilon() * compliance_[as_index(k)]; }
+  Scalar softened_slack(int k) const noexcept { return slacks_[as_index(k)] + softness(k) * multipliers_[as_index(k)]; }
 
   /// The Newton step that takes the residuals, and the products sλ, to zero.
   Vector6<Scalar> direction(const Problem& problem) noexcept {
     Vector6<Scalar> force = -dual_residual_;
     for (int k = 0; k < row_count_; ++k) {
-      force -= ((multipliers_[index(k)] * primal_residual_[index(k)] + products_[index(k)]) / softened_slack(k)) * problem.rows[index(k)];
+      force -= ((multipliers_[as_index(k)] * primal_residual_[as_index(k)] + products_[as_index(k)]) / softened_slack(k)) * problem.rows[as_index(k)];
     }
     const Vector6<Scalar> step = newton_.solve(force);
     for (int k = 0; k < row_count_; ++k) {
-      const Scalar change = problem.rows[index(k)].dot(step) + primal_residual_[index(k)];
-      multiplier_steps_[index(k)] = -(products_[index(k)] + multipliers_[index(k)] * change) / softened_slack(k);
-      slack_steps_[index(k)] = change + softness(k) * multiplier_steps_[index(k)];
+      const Scalar change = problem.rows[as_index(k)].dot(step) + primal_residual_[as_index(k)];
+      multiplier_steps_[as_index(k)] = -(products_[as_index(k)] + multipliers_[as_index(k)] * change) / softened_slack(k);
+      slack_steps_[as_index(k)] = change + softness(k) * multiplier_steps_[as_index(k)];
     }
     return step;
   }
@@ -181,8 +181,8 @@ class InteriorPoint {
   Scalar step_length(const Scalar& part) const noexcept {
     Scalar length = Scalar(1) / part;
     for (int k = 0; k < row_count_; ++k) {
-      if (slacks_[index(k)] + length * slack_steps_[index(k)] < Scalar(0)) length = -slacks_[index(k)] / slack_steps_[index(k)];
-      if (multipliers_[index(k)] + length * multiplier_steps_[index(k)] < Scalar(0)) length = -multipliers_[index(k)] / multiplier_steps_[index(k)];
+      if (slacks_[as_index(k)] + length * slack_steps_[as_index(k)] < Scalar(0)) length = -slacks_[as_index(k)] / slack_steps_[as_index(k)];
+      if (multipliers_[as_index(k)] + length * multiplier_steps_[as_index(k)] < Scalar(0)) length = -multipliers_[as_index(k)] / multiplier_steps_[as_index(k)];
     }
     return part * length < Scalar(1) ? Scalar(part * length) : Scalar(1);
   }

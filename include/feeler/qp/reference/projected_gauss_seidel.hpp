@@ -44,14 +44,14 @@ class ProjectedGaussSeidel {
     if (!is_finite(problem)) return QpStatus::iteration_limit;
     Vector6<Scalar> x = -hessian_.solve(problem.gradient);
     for (int k = 0; k < problem.row_count; ++k) {
-      images_[index(k)] = hessian_.solve(problem.rows[index(k)]);
-      const Scalar square = problem.rows[index(k)].dot(images_[index(k)]);
-      multipliers_[index(k)] = Scalar(0);
+      images_[as_index(k)] = hessian_.solve(problem.rows[as_index(k)]);
+      const Scalar square = problem.rows[as_index(k)].dot(images_[as_index(k)]);
+      multipliers_[as_index(k)] = Scalar(0);
       if (square > Scalar(0)) {
-        compliance_[index(k)] = square;
+        compliance_[as_index(k)] = square;
       } else {  // a row of zeros says nothing, or can not be met
-        compliance_[index(k)] = Scalar(1);
-        if (problem.bounds[index(k)] > tolerance) {
+        compliance_[as_index(k)] = Scalar(1);
+        if (problem.bounds[as_index(k)] > tolerance) {
           solution.conflict.push_back(k);
           solution.step = x;
           return make_finite(solution) ? QpStatus::infeasible : QpStatus::iteration_limit;
@@ -70,13 +70,13 @@ class ProjectedGaussSeidel {
   Scalar sweep(const Problem& problem, Vector6<Scalar>& x) noexcept {
     Scalar longest(0);
     for (int k = 0; k < problem.row_count; ++k) {
-      const Scalar lacking = problem.bounds[index(k)] - problem.rows[index(k)].dot(x);
-      Scalar change = relaxation * lacking / compliance_[index(k)];
-      if (!(multipliers_[index(k)] + change > Scalar(0))) change = -multipliers_[index(k)];
+      const Scalar lacking = problem.bounds[as_index(k)] - problem.rows[as_index(k)].dot(x);
+      Scalar change = relaxation * lacking / compliance_[as_index(k)];
+      if (!(multipliers_[as_index(k)] + change > Scalar(0))) change = -multipliers_[as_index(k)];
       if (change == Scalar(0)) continue;
-      multipliers_[index(k)] += change;
-      x += change * images_[index(k)];
-      const Scalar way = (change > Scalar(0) ? change : Scalar(-change)) * compliance_[index(k)];
+      multipliers_[as_index(k)] += change;
+      x += change * images_[as_index(k)];
+      const Scalar way = (change > Scalar(0) ? change : Scalar(-change)) * compliance_[as_index(k)];
       if (way > longest) longest = way;
     }
     return longest;

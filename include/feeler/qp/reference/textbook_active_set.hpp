@@ -41,7 +41,7 @@ class TextbookActiveSet {
     if (!hessian_.factor(problem.hessian)) return QpStatus::not_positive_definite;
     if (!is_finite(problem)) return QpStatus::iteration_limit;
     const QpStatus status = iterate(problem, solution);
-    for (int i = 0; i < count_; ++i) solution.active.push_back({active_[index(i)], multipliers_[index(i)]});
+    for (int i = 0; i < count_; ++i) solution.active.push_back({active_[as_index(i)], multipliers_[as_index(i)]});
     if (!make_finite(solution)) return QpStatus::iteration_limit;
     if (status == QpStatus::optimal && !is_stationary(problem, hessian_, tolerance, solution)) return QpStatus::iteration_limit;
     return status;
@@ -67,8 +67,8 @@ class TextbookActiveSet {
     Scalar worst(0);
     int entering = -1;
     for (int k = 0; k < problem.row_count; ++k) {
-      const Scalar violation = problem.bounds[index(k)] - problem.rows[index(k)].dot(x);
-      if (violation > worst && violation > tolerance + rounding_of_row(Vector6<Scalar>(problem.rows[index(k)]), x) && !is_active(k)) {
+      const Scalar violation = problem.bounds[as_index(k)] - problem.rows[as_index(k)].dot(x);
+      if (violation > worst && violation > tolerance + rounding_of_row(Vector6<Scalar>(problem.rows[as_index(k)]), x) && !is_active(k)) {
         worst = violation;
         entering = k;
       }
@@ -78,35 +78,35 @@ class TextbookActiveSet {
 
   bool is_active(int row) const noexcept {
     for (int i = 0; i < count_; ++i) {
-      if (active_[index(i)] == row) return true;
+      if (active_[as_index(i)] == row) return true;
     }
     return false;
   }
 
   bool active_rows_are_met(const Problem& problem, const Vector6<Scalar>& x) const noexcept {
     for (int i = 0; i < count_; ++i) {
-      const Vector6<Scalar> a = problem.rows[index(active_[index(i)])];
-      if (problem.bounds[index(active_[index(i)])] - a.dot(x) > tolerance + rounding_of_row(a, x)) return false;
+      const Vector6<Scalar> a = problem.rows[as_index(active_[as_index(i)])];
+      if (problem.bounds[as_index(active_[as_index(i)])] - a.dot(x) > tolerance + rounding_of_row(a, x)) return false;
     }
     return true;
   }
 
   /// Makes row p active, dropping rows whose multiplier would turn negative; says `optimal` when it is.
   QpStatus enter(const Problem& problem, int p, int limit, Solution& solution) noexcept {
-    const Vector6<Scalar> a = problem.rows[index(p)];
+    const Vector6<Scalar> a = problem.rows[as_index(p)];
     const Vector6<Scalar> image = hessian_.solve(a);
     while (++solution.iterations <= limit) {
       factor(problem);
       const auto e = basis_.expand(a, image);
       const bool is_dependent = count_ == 6 || !(e.free_squared > dependence() * e.squared);
-      const Scalar violation = problem.bounds[index(p)] - a.dot(solution.step);
+      const Scalar violation = problem.bounds[as_index(p)] - a.dot(solution.step);
 
       int leaving = -1;  // the first row whose multiplier meets zero
       Scalar dual_step(0);
       for (int i = 0; i < count_; ++i) {
-        const Scalar& r = e.coefficients[index(i)];
-        if (r > Scalar(0) && (leaving < 0 || multipliers_[index(i)] < dual_step * r)) {
-          dual_step = multipliers_[index(i)] / r;
+        const Scalar& r = e.coefficients[as_index(i)];
+        if (r > Scalar(0) && (leaving < 0 || multipliers_[as_index(i)] < dual_step * r)) {
+          dual_step = multipliers_[as_index(i)] / r;
           leaving = i;
         }
       }
@@ -114,24 +114,24 @@ class TextbookActiveSet {
         if (!is_certain_conflict(problem, p, e.coefficients)) return QpStatus::iteration_limit;
         solution.conflict.push_back(p);
         for (int i = 0; i < count_; ++i) {
-          if (e.coefficients[index(i)] < -negligible()) solution.conflict.push_back(active_[index(i)]);
+          if (e.coefficients[as_index(i)] < -negligible()) solution.conflict.push_back(active_[as_index(i)]);
         }
         return QpStatus::infeasible;
       }
       if (!is_dependent && (leaving < 0 || violation <= dual_step * e.free_squared)) {
-        active_[index(count_++)] = p;
+        active_[as_index(count_++)] = p;
         solution.step = stand_on_active_rows(problem);
         return QpStatus::optimal;
       }
       if (!is_dependent) solution.step += dual_step * e.free_image;
       for (int i = 0; i < count_; ++i) {
-        const Scalar u = multipliers_[index(i)] - dual_step * e.coefficients[index(i)];
-        multipliers_[index(i)] = u > Scalar(0) ? u : Scalar(0);
+        const Scalar u = multipliers_[as_index(i)] - dual_step * e.coefficients[as_index(i)];
+        multipliers_[as_index(i)] = u > Scalar(0) ? u : Scalar(0);
       }
       --count_;
       for (int i = leaving; i < count_; ++i) {
-        active_[index(i)] = active_[index(i + 1)];
-        multipliers_[index(i)] = multipliers_[index(i + 1)];
+        active_[as_index(i)] = active_[as_index(i + 1)];
+        multipliers_[as_index(i)] = multipliers_[as_index(i + 1)];
       }
     }
     return QpStatus::iteration_limit;
@@ -140,11 +140,11 @@ class TextbookActiveSet {
   /// Whether row p less its shares of the active ones asks for more than rounding and tolerances can explain.
   template <class Shares>
   bool is_certain_conflict(const Problem& problem, int p, const Shares& shares) const noexcept {
-    Scalar gain = problem.bounds[index(p)], weights(1), sizes = gain < Scalar(0) ? Scalar(-gain) : gain;
+    Scalar gain = problem.bounds[as_index(p)], weights(1), sizes = gain < Scalar(0) ? Scalar(-gain) : gain;
     for (int i = 0; i < count_; ++i) {
-      const Scalar part = shares[index(i)] * problem.bounds[index(active_[index(i)])];
+      const Scalar part = shares[as_index(i)] * problem.bounds[as_index(active_[as_index(i)])];
       gain -= part;
-      weights += shares[index(i)] < Scalar(0) ? Scalar(-shares[index(i)]) : shares[index(i)];
+      weights += shares[as_index(i)] < Scalar(0) ? Scalar(-shares[as_index(i)]) : shares[as_index(i)];
       sizes += part < Scalar(0) ? Scalar(-part) : part;
     }
     const Scalar rounding = 16 * std::numeric_limits<Scalar>::epsilon();
@@ -165,7 +165,7 @@ class TextbookActiveSet {
   void factor(const Problem& problem) noexcept {
     basis_.clear();
     for (int i = 0; i < count_; ++i) {
-      const Vector6<Scalar> a = problem.rows[index(active_[index(i)])];
+      const Vector6<Scalar> a = problem.rows[as_index(active_[as_index(i)])];
       basis_.add(basis_.expand(a, hessian_.solve(a)));
     }
   }
@@ -180,19 +180,19 @@ class TextbookActiveSet {
       Numbers lacking;
       lacking.fill(Scalar(0));
       for (int i = 0; i < count_; ++i) {
-        const auto k = index(active_[index(i)]);
-        lacking[index(i)] = problem.bounds[k] - problem.rows[k].dot(x);
+        const auto k = as_index(active_[as_index(i)]);
+        lacking[as_index(i)] = problem.bounds[k] - problem.rows[k].dot(x);
       }
       const Numbers u = basis_.solve(lacking);
       Vector6<Scalar> force = Vector6<Scalar>::Zero();
       for (int i = 0; i < count_; ++i) {
-        force += u[index(i)] * problem.rows[index(active_[index(i)])];
-        multipliers_[index(i)] += u[index(i)];
+        force += u[as_index(i)] * problem.rows[as_index(active_[as_index(i)])];
+        multipliers_[as_index(i)] += u[as_index(i)];
       }
       x += hessian_.solve(force);
     }
     for (int i = 0; i < count_; ++i) {
-      if (!(multipliers_[index(i)] > Scalar(0))) multipliers_[index(i)] = Scalar(0);
+      if (!(multipliers_[as_index(i)] > Scalar(0))) multipliers_[as_index(i)] = Scalar(0);
     }
     return x;
   }

@@ -35,13 +35,13 @@ class ElasticRows {
 
   void clear() noexcept { size_ = 0; }
   /// Appends the bounds of the next row of a problem.
-  void add(Scalar soft, Scalar hard) noexcept { rows_[index(size_++)] = {soft, (std::min)(hard, soft), false}; }
+  void add(Scalar soft, Scalar hard) noexcept { rows_[as_index(size_++)] = {soft, (std::min)(hard, soft), false}; }
 
   /// @param unit  the new unit of length, in the old one
   void change_unit(Scalar unit) noexcept {
     for (int k = 0; k < size_; ++k) {
-      rows_[index(k)].soft /= unit;
-      rows_[index(k)].hard /= unit;
+      rows_[as_index(k)].soft /= unit;
+      rows_[as_index(k)].hard /= unit;
     }
     relaxation_ /= unit;
   }
@@ -51,11 +51,11 @@ class ElasticRows {
   /// Whether the QPs allowed, fewer than `most_solves`, did not suffice: less relaxation may do.
   bool is_cut_short() const noexcept { return is_cut_short_; }
   /// Whether a row of the last solution is in conflict.
-  bool is_relaxed(int k) const noexcept { return rows_[index(k)].is_relaxed; }
+  bool is_relaxed(int k) const noexcept { return rows_[as_index(k)].is_relaxed; }
   /// The relaxation that a step of zero needs [m].
   Scalar relaxation_at_rest() const noexcept {
     Scalar most(0);
-    for (int k = 0; k < size_; ++k) most = (std::max)(most, rows_[index(k)].soft);
+    for (int k = 0; k < size_; ++k) most = (std::max)(most, rows_[as_index(k)].soft);
     return most;
   }
 
@@ -115,7 +115,7 @@ class ElasticRows {
       const auto expansion = basis.expand(vector, image);
       const Scalar rounding = 16 * std::numeric_limits<Scalar>::epsilon();
       if (basis.size() == most || !(expansion.free_squared > rounding * rounding * expansion.squared)) return;
-      rows[index(basis.size())] = row;
+      rows[as_index(basis.size())] = row;
       basis.add(expansion);
     }
   };
@@ -131,12 +131,12 @@ class ElasticRows {
   }
 
   Scalar bound(int k) const noexcept {
-    const Row& row = rows_[index(k)];
+    const Row& row = rows_[as_index(k)];
     return row.is_relaxed ? (std::max)(row.hard, row.soft - relaxation_) : row.soft;
   }
-  bool is_soft(int k) const noexcept { return bound(k) > rows_[index(k)].hard; }
+  bool is_soft(int k) const noexcept { return bound(k) > rows_[as_index(k)].hard; }
   void load(QpProblem<Scalar>& problem) const noexcept {
-    for (int k = 0; k < size_; ++k) problem.bounds[index(k)] = bound(k);
+    for (int k = 0; k < size_; ++k) problem.bounds[as_index(k)] = bound(k);
   }
   /// At the start, and where more rows are relaxed, so that less may do.
   void begin_again(Search& search) noexcept {
@@ -144,10 +144,10 @@ class ElasticRows {
     search.high = search.most;
     search.is_least = true;
   }
-  bool relax(int k) noexcept { return !std::exchange(rows_[index(k)].is_relaxed, true); }
+  bool relax(int k) noexcept { return !std::exchange(rows_[as_index(k)].is_relaxed, true); }
   void relax_all(Scalar relaxation) noexcept {
     relaxation_ = relaxation;
-    for (int k = 0; k < size_; ++k) rows_[index(k)].is_relaxed = true;
+    for (int k = 0; k < size_; ++k) rows_[as_index(k)].is_relaxed = true;
   }
 
   /// Where rows contradict each other, relaxes more rows, or the relaxed ones by more; false where neither is left to do.
@@ -200,12 +200,12 @@ class ElasticRows {
     const Scalar missing = relaxation_at_rest() / 100;
     bool joins = false;
     for (int k = 0; k < size_; ++k) {
-      if (rows_[index(k)].soft > missing) joins = relax(k) || joins;
+      if (rows_[as_index(k)].soft > missing) joins = relax(k) || joins;
     }
     for (const int i : list) {
-      const Vector3<Scalar> direction = problem.rows[index(i)].template head<3>();
+      const Vector3<Scalar> direction = problem.rows[as_index(i)].template head<3>();
       for (int k = 0; k < size_; ++k) {
-        if (rows_[index(k)].is_relaxed || !(problem.rows[index(k)].template head<3>().dot(direction) > parallel * direction.squaredNorm())) continue;
+        if (rows_[as_index(k)].is_relaxed || !(problem.rows[as_index(k)].template head<3>().dot(direction) > parallel * direction.squaredNorm())) continue;
         joins = relax(k) || joins;
       }
     }
@@ -218,13 +218,13 @@ class ElasticRows {
     const int last = rows.size() - 1;
     if (last < 1) return Scalar(0);
     Independent others;
-    for (int i = 0; i < last; ++i) others.add(rows[i], problem.rows[index(rows[i])], problem.rows[index(rows[i])]);
-    const Vector6<Scalar> row = problem.rows[index(rows[last])];
+    for (int i = 0; i < last; ++i) others.add(rows[i], problem.rows[as_index(rows[i])], problem.rows[as_index(rows[i])]);
+    const Vector6<Scalar> row = problem.rows[as_index(rows[last])];
     const auto along_others = others.basis.expand(row, row).coefficients;
     Scalar lacking = bound(rows[last]), soft = is_soft(rows[last]) ? Scalar(1) : Scalar(0);
     for (int i = 0; i < others.basis.size(); ++i) {
-      const Scalar weight = (std::max)(Scalar(-along_others[index(i)]), Scalar(0));
-      const int k = others.rows[index(i)];
+      const Scalar weight = (std::max)(Scalar(-along_others[as_index(i)]), Scalar(0));
+      const int k = others.rows[as_index(i)];
       lacking += weight * bound(k);
       if (is_soft(k)) soft += weight;
     }
@@ -246,17 +246,17 @@ class ElasticRows {
     if (!hessian.factor(problem.hessian)) return none;
     Independent actives;
     for (const auto& active : solution.active) {
-      const Vector6<Scalar> row = problem.rows[index(active.row)];
+      const Vector6<Scalar> row = problem.rows[as_index(active.row)];
       detail::Six<Scalar> image;
-      for (int j = 0; j < 6; ++j) image[index(j)] = row[j];
+      for (int j = 0; j < 6; ++j) image[as_index(j)] = row[j];
       image = hessian.solve(image);
       actives.add(active.row, row, Eigen::Map<const Vector6<Scalar>>(image.data()));
     }
     std::array<Scalar, Independent::most> soft{};
-    for (int i = 0; i < actives.basis.size(); ++i) soft[index(i)] = is_soft(actives.rows[index(i)]) ? Scalar(1) : Scalar(0);
+    for (int i = 0; i < actives.basis.size(); ++i) soft[as_index(i)] = is_soft(actives.rows[as_index(i)]) ? Scalar(1) : Scalar(0);
     const auto change = actives.basis.solve(soft);
     Scalar fall(0);
-    for (int i = 0; i < actives.basis.size(); ++i) fall += soft[index(i)] * change[index(i)];
+    for (int i = 0; i < actives.basis.size(); ++i) fall += soft[as_index(i)] * change[as_index(i)];
     return (std::max)(fall, none);
   }
 

@@ -114,9 +114,9 @@ class StepProblem {
   const Row& row(int k) const noexcept { return rows_[k]; }
   const QpSolution<Scalar>& solution() const noexcept { return solution_; }
   /// Separation of a row after the step, to first order [m].
-  Scalar gap_after(int k) const noexcept { return rows_[k].gap + problem_.rows[index(k)].dot(solution_.step); }
+  Scalar gap_after(int k) const noexcept { return rows_[k].gap + problem_.rows[as_index(k)].dot(solution_.step); }
   /// Room that the last step left to a row before it would stop it, to first order [m]; 0 for an active one.
-  Scalar room_after(int k) const noexcept { return problem_.rows[index(k)].dot(solution_.step) - problem_.bounds[index(k)]; }
+  Scalar room_after(int k) const noexcept { return problem_.rows[as_index(k)].dot(solution_.step) - problem_.bounds[as_index(k)]; }
 
   /// The step with the Hessian of f alone: the way home, where no row holds.
   const Vector6<Scalar>& solve_gauss_newton(const TurnedMetric<Scalar>& metric, const Twist<Scalar>& graphic_from_haptic, Scalar margin) noexcept {
@@ -242,7 +242,7 @@ class StepProblem {
     ++solves_;
     // Rounding or curvature may leave a row short of its hard bound by a hair, which rows that all but contradict each other win back far away or
     // nowhere: stay where rows allow it.
-    for (int k = 0; k < problem_.row_count; ++k) problem_.bounds[index(k)] = (std::min)(problem_.bounds[index(k)], Scalar(0));
+    for (int k = 0; k < problem_.row_count; ++k) problem_.bounds[as_index(k)] = (std::min)(problem_.bounds[as_index(k)], Scalar(0));
     is_optimal_ = solver_.solve(problem_, solution_) == QpStatus::optimal;
     if (!is_optimal_) {
       solution_.step.setZero();
