@@ -37,10 +37,10 @@ class SurfaceFeatures {
     faces_ = planes.faces();
     triangle_face_ = planes.of_triangle();
     triangle_edge_ = sharp.of_triangle();
-    detail::DisjointSets lines(sharp.edges().size());
+    detail::DisjointSets chains(sharp.edges().size());
     Incidences incidences;
-    const std::vector<int> corners = find_vertices(mesh, sharp, lines, incidences);
-    find_edges(sharp, lines, corners, incidences);
+    const std::vector<int> corners = find_vertices(mesh, sharp, chains, incidences);
+    find_edges(sharp, chains, corners, incidences);
     incidence_ = FeatureIncidence(vertex_count(), std::move(incidences.edge_ends), face_count(), incidences.edge_faces, incidences.vertex_faces);
   }
 
@@ -87,8 +87,8 @@ class SurfaceFeatures {
   };
 
   /// Finds the vertices; of a vertex of the mesh its number among them, or −1.
-  /// @param lines  sharp edges that are one straight edge are joined, with the first as root
-  std::vector<int> find_vertices(const TriangleMesh<Scalar>& mesh, const detail::SharpEdges<Scalar>& sharp, detail::DisjointSets& lines,
+  /// @param chains  sharp edges that are one straight edge are joined, with the first as root
+  std::vector<int> find_vertices(const TriangleMesh<Scalar>& mesh, const detail::SharpEdges<Scalar>& sharp, detail::DisjointSets& chains,
                                  Incidences& incidences) {
     std::vector<std::pair<int, int>> at_vertex, faces_at_vertex;
     for (std::size_t e = 0; e < sharp.edges().size(); ++e)
@@ -107,8 +107,8 @@ class SurfaceFeatures {
         vertex_feature_[as_index(v)] = {FeatureKind::face, faces[0]};
       } else if (edges.size() == 2 &&
                  detail::SharpEdges<Scalar>::continues(mesh, v, sharp.edges()[as_index(edges[0])], sharp.edges()[as_index(edges[1])], faces.size())) {
-        const int a = lines.root(edges[0]), b = lines.root(edges[1]);
-        lines.join((std::max)(a, b), (std::min)(a, b));
+        const int a = chains.root(edges[0]), b = chains.root(edges[1]);
+        chains.join((std::max)(a, b), (std::min)(a, b));
       } else {
         corners[as_index(v)] = vertex_count();
         vertex_feature_[as_index(v)] = {FeatureKind::vertex, vertex_count()};
@@ -120,10 +120,10 @@ class SurfaceFeatures {
   }
 
   /// Finds the straight edges between corners.
-  void find_edges(const detail::SharpEdges<Scalar>& sharp, detail::DisjointSets& lines, const std::vector<int>& corners, Incidences& incidences) {
+  void find_edges(const detail::SharpEdges<Scalar>& sharp, detail::DisjointSets& chains, const std::vector<int>& corners, Incidences& incidences) {
     std::vector<int> number(sharp.edges().size(), -1);
     for (std::size_t e = 0; e < sharp.edges().size(); ++e) {
-      const auto root = as_index(lines.root(int(e)));
+      const auto root = as_index(chains.root(int(e)));
       const detail::MeshEdge& first = sharp.edges()[root];
       if (number[root] < 0) {
         number[root] = edge_count();
