@@ -3,6 +3,7 @@
 #include <Eigen/Geometry>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <memory>
@@ -381,7 +382,11 @@ BOOST_AUTO_TEST_CASE(a_mesh_from_the_arrays_of_an_engine_is_that_from_matrices) 
   BOOST_TEST(contains(refused(8, 12), "triangle 1 has the index 4294967295, but there are 8 vertices"));
   for (const double scale : {0.0, -1.0, std::nan(""), HUGE_VAL})
     BOOST_TEST(contains(refusal([&] { Mesh(cube_points(), cube_triangles(), scale); }), "the scale is not a positive number"));
-  BOOST_TEST(contains(refusal([&] { Mesh(2 * cube_points(), cube_triangles(), 1e308); }), "vertex 1 has a NaN or an infinity"));
+  BOOST_TEST(contains(refusal([&] { Mesh(2 * cube_points(), cube_triangles(), 1e308); }), "vertex 1 is too far away for the scalar of the mesh"));
+  const std::array<double, 9> corners{0, 0, 0, 1, 0, 0, 0, 1, 0};
+  const std::array<signed char, 3> numbers{0, 1, 2}, negative{0, 1, -3};
+  BOOST_TEST(Mesh::reason_against(corners.data(), 3, numbers.data(), 1) == "");
+  BOOST_TEST(contains(Mesh::reason_against(corners.data(), 3, negative.data(), 1), "has the index -3"));
 }
 
 BOOST_AUTO_TEST_CASE(a_report_tells_the_size_and_warns_of_what_looks_like_millimetres) {

@@ -139,6 +139,7 @@ BOOST_AUTO_TEST_CASE(scenes_that_are_too_large_or_too_far_off_are_refused_and_to
     const std::string sentence = refusal([&] { HapticRenderer(object, Box<double>({half, 1, 1})); });
     BOOST_TEST(contains(sentence, "m across, and rounding could carry the tool through a surface whatever the margin"), sentence);
     BOOST_TEST(!contains(sentence, "-9"));
+    BOOST_TEST(!contains(sentence, "inf"));
   }
   Settings<double> lever;
   lever.reference_point.x() = 1e200;
@@ -152,6 +153,15 @@ BOOST_AUTO_TEST_CASE(scenes_that_are_too_large_or_too_far_off_are_refused_and_to
   BOOST_TEST(contains(
       off(1e6f), "the object reaches 1e+06 m from the origin, where poses are rounded to 0.0596 m; move the scene to the origin, or use double"));
   BOOST_TEST(contains(off(1e10), "move the scene to the origin, or give a larger margin"));
+  BOOST_TEST(off(1e13).ends_with("move the scene to the origin"));  // no margin is large enough
+  Settings<float> beside;
+  beside.reference_point.x() = 1e5F;
+  BOOST_TEST(
+      contains(refusal([&] {
+                 const TriangleMesh<float> wall(wall_at(0.0F), wall_triangles);
+                 HapticRenderer(wall, Box<float>({0.01F, 0.01F, 0.01F}), beside);
+               }),
+               "its reference point so far from the origin of its frame, that poses are rounded to 0.0596 m; give a reference point on the tool"));
   BOOST_TEST(off(1e3f) == "accepted");
   BOOST_TEST(off(1e8) == "accepted");
 }

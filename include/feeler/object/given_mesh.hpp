@@ -39,12 +39,16 @@ std::string reason_against_mesh(const std::string& who, const std::string& part,
                                 Scalar scale) {
   if (!(scale > Scalar(0) && scale <= (std::numeric_limits<Scalar>::max)()))
     return who + ": the scale is not a positive number; give metres a unit, as 0.001 for millimetres";
-  for (Eigen::Index i = 0; i < vertices.rows(); ++i)
-    if (!(vertices.row(i).template cast<Scalar>() * scale).allFinite())
-      return who + ": vertex " + std::to_string(i) + part + " has a NaN or an infinity; correct its coordinates or remove it and its triangles";
+  for (Eigen::Index i = 0; i < vertices.rows(); ++i) {
+    if ((vertices.row(i).template cast<Scalar>() * scale).allFinite()) continue;
+    const auto& given = vertices.row(i).array();
+    return who + ": vertex " + std::to_string(i) + part +
+           ((given - given == 0).all() ? " is too far away for the scalar of the mesh; give metres, and a scale that makes metres of other units"
+                                       : " has a NaN or an infinity; correct its coordinates or remove it and its triangles");
+  }
   for (Eigen::Index i = 0; i < triangles.rows(); ++i)
     for (int k = 0; k < 3; ++k)
-      if (std::cmp_less(triangles(i, k), 0) || std::cmp_greater_equal(triangles(i, k), vertices.rows()))
+      if (std::cmp_less(+triangles(i, k), 0) || std::cmp_greater_equal(+triangles(i, k), vertices.rows()))  // of a char the number
         return who + ": triangle " + std::to_string(i) + part + " has the index " + std::to_string(triangles(i, k)) + ", but " +
                (part.empty() ? "there are " : "the part has ") + std::to_string(vertices.rows()) + " vertices; indices start at 0" +
                (part.empty() ? "" : " in each part") + " and must be less than that";

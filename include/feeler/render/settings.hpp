@@ -52,7 +52,7 @@ struct Settings {
   /// Work a tick, in units of one distance query between the tool and a triangle, or one optimisation (with all that goes with it, 0.7 to 1 µs for
   /// 32 vertices). A tick ends within a fifth more than it, on the certified pose that it has, and the next goes on with what it was at. Less bounds
   /// the worst tick, and lets the tool lag where the solution jumps, or where what is all around the tool takes some ticks to look at. 1 to
-  /// 1e8.
+  /// 1e8; with less than 20 a tool may not come to rest.
   int work_budget = 128;
 };
 

@@ -80,7 +80,10 @@ template <RealScalar MeshScalar, RealScalar Scalar>
 std::string reason_against_margin(const Settings<MeshScalar>& settings, const SceneRounding<MeshScalar, Scalar>& rounding) {
   constexpr bool is_narrow = !std::is_same_v<MeshScalar, Scalar>;  // and the margin follows the rounding of poses
   const Scalar most = Scalar(MeshScalar(1e-3)), least = rounding.least_margin(), margin = Scalar(settings.margin);
-  const auto text = [](const Scalar& length) { return number_text(static_cast<double>(length)); };
+  const auto text = [](const Scalar& length) {
+    using std::isfinite;
+    return isfinite(length) ? number_text(static_cast<double>(length)) : "more than " + number_text((std::numeric_limits<double>::max)());
+  };
   if (!(least <= most))
     return "HapticRenderer: the object and the tool about its reference point are " + text(rounding.size) +
            " m across, and rounding could carry the tool through a surface whatever the margin; give all lengths in metres";
@@ -90,9 +93,14 @@ std::string reason_against_margin(const Settings<MeshScalar>& settings, const Sc
            (least <= Scalar(Settings<MeshScalar>().margin) ? "leave the default of 1 µm if in doubt"
                                                            : "give such a margin, or all lengths in metres");
   if (!(10 * rounding.of_poses() <= (is_narrow ? most : margin)))
-    return "HapticRenderer: the object reaches " + text(rounding.farthest) + " m from the origin, where poses are rounded to " +
-           text(rounding.of_poses()) +
-           (is_narrow ? " m; move the scene to the origin, or use double" : " m; move the scene to the origin, or give a larger margin");
+    return (rounding.reach > rounding.farthest
+                ? "HapticRenderer: the tool is so large, or its reference point so far from the origin of its frame, that poses are rounded to "
+                : "HapticRenderer: the object reaches " + text(rounding.farthest) + " m from the origin, where poses are rounded to ") +
+           text(rounding.of_poses()) + " m; " +
+           (rounding.reach > rounding.farthest ? "give a reference point on the tool, and all lengths in metres" : "move the scene to the origin") +
+           (is_narrow                          ? ", or use double"
+            : 10 * rounding.of_poses() <= most ? ", or give a larger margin"
+                                               : "");
   return {};
 }
 }  // namespace detail

@@ -42,6 +42,10 @@ struct HullLattice {
       reason = "ConvexPolytope: all points are equal; give at least 4 that are not in one plane";
       return;
     }
+    if (!sides.allFinite()) {
+      reason = "ConvexPolytope: the points are too far apart for the scalar; give metres";
+      return;
+    }
     using std::ldexp;
     const auto on_lattice = [&](const Working& x) { return static_cast<std::int64_t>(ldexp(Working(x / side), lattice_bits)); };
     points.reserve(std::size_t(wide.rows()));
