@@ -44,6 +44,9 @@ BOOST_AUTO_TEST_CASE(a_part_without_a_place_is_refused_and_leaves_the_assembly_a
   Points<double> broken = vertices;
   broken(2, 1) = HUGE_VAL;
   BOOST_TEST(contains(refusal([&] { assembly.add(broken, triangles); }), "vertex 2 of part 1 has a NaN or an infinity"));
+  broken(2, 1) = broken(2, 0) = 1.7e308;
+  BOOST_TEST(
+      contains(refusal([&] { assembly.add(broken, triangles, {{0, 0, 0}, Quaternion<double>(0.92, 0, 0, 0.38)}); }), "of part 1 is too far away"));
   BOOST_TEST(assembly.part_count() == 1);
   BOOST_TEST(assembly.vertices().rows() == 3);
   BOOST_TEST(assembly.mesh().triangle_count() == 1);

@@ -73,18 +73,25 @@ class MeshAssembly {
     if (!pose.is_finite())
       return "MeshAssembly: the pose" + part +
              " has a NaN, a number too large to be squared, or a quaternion near zero; give metres, and w = 1 for no rotation";
-    const std::string reason = detail::reason_against_counts("MeshAssembly", std::size_t(vertices_.rows() + vertices.rows()),
-                                                             std::size_t(triangles_.rows() + triangles.rows()));
-    return reason.empty() ? detail::reason_against_mesh("MeshAssembly", part, vertices, triangles, scale) : reason;
+    std::string reason = detail::reason_against_counts("MeshAssembly", std::size_t(vertices_.rows() + vertices.rows()),
+                                                       std::size_t(triangles_.rows() + triangles.rows()));
+    if (reason.empty()) reason = detail::reason_against_mesh("MeshAssembly", part, vertices, triangles, scale);
+    if (reason.empty() && !placed(vertices, pose, scale).allFinite())
+      reason = "MeshAssembly: a vertex" + part + " is too far away for the scalar of the mesh where the pose puts it; give metres";
+    return reason;
+  }
+  template <class VertexRows>
+  static Points<Scalar> placed(const VertexRows& vertices, const Pose<Scalar>& pose, Scalar scale) {
+    const Matrix3<Scalar> axes = pose.rotation.normalized().toRotationMatrix();
+    return (vertices.template cast<Scalar>() * scale * axes.transpose()).rowwise() + pose.translation.transpose();
   }
 
   template <class VertexRows, class IndexRows>
   int add_rows(const VertexRows& vertices, const IndexRows& triangles, const Pose<Scalar>& pose, Scalar scale) {
     refuse_for(reason_against_rows(vertices, triangles, pose, scale));
     const Eigen::Index first_vertex = vertices_.rows(), first_triangle = triangles_.rows();
-    const Matrix3<Scalar> axes = pose.rotation.normalized().toRotationMatrix();
     vertices_.conservativeResize(first_vertex + vertices.rows(), 3);
-    vertices_.bottomRows(vertices.rows()) = (vertices.template cast<Scalar>() * scale * axes.transpose()).rowwise() + pose.translation.transpose();
+    vertices_.bottomRows(vertices.rows()) = placed(vertices, pose, scale);
     triangles_.conservativeResize(first_triangle + triangles.rows(), 3);
     triangles_.bottomRows(triangles.rows()) = triangles.template cast<int>().array() + int(first_vertex);
     first_triangles_.push_back(int(first_triangle));
