@@ -428,7 +428,7 @@ Soup sheet_and_soup(std::mt19937& bits, int n, int soup_count) {
 
 }  // namespace
 
-BOOST_AUTO_TEST_CASE(what_is_near_a_standing_tool_is_noticed_or_lies_in_or_behind_the_wall_of_what_was) {
+BOOST_AUTO_TEST_CASE(what_is_near_a_standing_tool_is_noticed_or_lies_behind_the_plane_of_what_was) {
   constexpr unsigned seed = 53;
   BOOST_TEST_MESSAGE("seed " << seed);
   std::mt19937 bits(seed);
@@ -476,7 +476,7 @@ BOOST_AUTO_TEST_CASE(what_is_near_a_standing_tool_is_noticed_or_lies_in_or_behin
       Vector normal;
       double height, lowest;
     };
-    std::vector<Front> fronts;  // planes of what is noticed; a known triangle hides nothing, as it may hold the tool elsewhere
+    std::vector<Front> fronts;  // planes of what is known or noticed
     const auto add_front = [&](int t, const Vector& normal) {
       const Eigen::Matrix3d corners = mesh.corners(t).colwise() - standing.origin();
       fronts.push_back({normal, (normal.transpose() * corners).maxCoeff(), standing.lowest(normal, frame)});
@@ -486,6 +486,7 @@ BOOST_AUTO_TEST_CASE(what_is_near_a_standing_tool_is_noticed_or_lies_in_or_behin
       const Eigen::Matrix3d corners = mesh.corners(t).colwise() - standing.origin();
       const auto closest = feeler::separation(tool, standing.in_tool(corners, frame), {}, clearance.touching);
       known.push_back({t, {corners, frame.rotation * closest.normal, closest.features, true}});
+      add_front(t, frame.rotation * closest.normal);
     }
     Sweep<Box> sweep(planes, clearance, surface.get());
     const auto noticed = sweep.notice(mesh, standing, std::span<const KnownTriangle<double>>(known), work, std::numeric_limits<int>::max());
@@ -494,6 +495,9 @@ BOOST_AUTO_TEST_CASE(what_is_near_a_standing_tool_is_noticed_or_lies_in_or_behin
       BOOST_TEST(names.insert(near.triangle).second);
       BOOST_TEST(distance[std::size_t(near.triangle)] <= WideReal(clearance.kept) + 1e-12L);
       for (const double side : {1.0, -1.0}) add_front(near.triangle, side * mesh.normal(near.triangle));
+    }
+    if (!known.empty()) {
+      for (const double side : {1.0, -1.0}) add_front(known.front().triangle, side * mesh.normal(known.front().triangle));
     }
     noticed_in_all += noticed.size();
     empty += noticed.empty() ? 1 : 0;

@@ -69,7 +69,11 @@ class CulledTraversal {
     noted_leaf_ = -1;
     hiding_planes_.clear();
     if (keeps_off_) hiding_planes_ = known.hiding_planes(moving, start_, clearance_);
-    if (walls_ != nullptr) walls_->begin(mesh, piece_, moving, start_, !keeps_off_);
+    if (walls_ != nullptr) {
+      walls_->begin(mesh, piece_, moving, start_, !keeps_off_);
+      for (const KnownTriangle<Scalar>& pair : known.list())
+        if (!pair.state.normal.isZero(Scalar(0))) walls_->know(mesh, pair.triangle, moving, start_);
+    }
     set_end(moving, until);
   }
 

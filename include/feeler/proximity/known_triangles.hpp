@@ -55,7 +55,7 @@ class KnownTriangles {
     };
   }
 
-  /// The planes, no two alike, that part the tool from known triangles near it, and by what is to be kept, where it stands: they hide box by box.
+  /// The planes, no two alike, that part the tool from known triangles near it where it stands: they hide box by box.
   template <class Moving>
   Planes hiding_planes(const Moving& standing, const MotionFrame<Scalar>& start, const Clearance<Scalar>& clearance) const noexcept {
     Planes planes;
@@ -65,7 +65,7 @@ class KnownTriangles {
       const auto is_alike = [&](const HidingPlane<Scalar>& other) { return other.normal.dot(normal) > Scalar(1) - Scalar(1e-12); };
       if (normal.isZero(Scalar(0)) || std::any_of(planes.begin(), planes.end(), is_alike)) continue;
       const Scalar height = highest_corner(known.state.corners, normal) + flat(clearance), slack = standing.lowest(normal, start) - height;
-      if (slack >= clearance.kept && slack < 2 * clearance.kept) planes.push_back({normal, height});
+      if (slack > -2 * clearance.allowance && slack < 2 * clearance.kept) planes.push_back({normal, height});
     }
     return planes;
   }

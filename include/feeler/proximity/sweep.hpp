@@ -66,7 +66,8 @@ class Sweep {
     return run(mesh, moving, work, limit, true);
   }
 
-  /// The triangles nearer than `Clearance::kept` to a tool that stands still, but for those known; of a wall one tells for all.
+  /// The triangles nearer than `Clearance::kept` to a tool that stands still, but for those known and those hidden behind the plane of one that is:
+  /// what is no nearer than that one, as seen along its normal, holds the tool no better.
   /// @param known  each with a plane that parts it
   template <class MeshScalar>
   NoticedTriangles notice(const TriangleMesh<MeshScalar>& mesh, const MovingTool<Tool>& standing, List known, int& work, int limit) noexcept {
@@ -83,6 +84,7 @@ class Sweep {
     const Clearance<Scalar>& clearance = traversal_.clearance();
     WallPlanes<Scalar>* const walls = traversal_.walls();
     const auto look_at = [&](int triangle, const Matrix3<Scalar>& corners) {
+      if (is_hidden(corners, standing, work)) return true;
       ++work;
       const auto closest =
           gjk(standing.tool(), standing.in_tool(corners, traversal_.start()), traversal_.features().recall_or_guess(triangle), clearance.touching);

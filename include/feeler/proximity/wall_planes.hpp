@@ -58,7 +58,7 @@ class WallPlanes {
     axes_at_end_ = end.rotation;
     shift_ = end.shift;
   }
-  /// A triangle that was noticed: what else lies in its wall, or behind it, may be as near.
+  /// A triangle of the working set: what else lies in its wall, or behind it, may be as near.
   template <class MeshScalar, class Moving>
   void know(const TriangleMesh<MeshScalar>& mesh, int triangle, const Moving& moving, const MotionFrame<Scalar>& start) noexcept {
     const int wall = mesh.walls().of_triangle(triangle);
@@ -150,7 +150,7 @@ class WallPlanes {
     std::uint32_t motion = 0, end = 0;  // that its heights are of
     std::uint32_t asked = 0;            // motion in which `note_question` was called
     std::uint32_t met = 0;              // motion that is blocked below the lowest vertex
-    std::uint32_t known = 0;            // motion at the end of which a triangle of it was noticed
+    std::uint32_t known = 0;            // motion before which a triangle of it was in the working set
     int vertex = 0;                     // of the tool, that was lowest
     bool is_front = true;               // the normal is that of the surface, not its opposite
     PlaneOnMotion<Scalar> heights = PlaneOnMotion<Scalar>();

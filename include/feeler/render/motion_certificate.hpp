@@ -220,14 +220,15 @@ class MotionCertificate {
   }
 
   /// What is known near the piece at hand, relative to the origin of a motion.
-  /// @param is_standing  where a motion ended: a plane found there is the better one
+  /// @param is_standing  where a motion ended: a plane found there is the better one, and a ghost has none
   template <int pair_capacity>
   FixedVector<KnownTriangle<Scalar>, pair_capacity> known_triangles(const WorkingSet<Scalar, pair_capacity>& pairs, const Vector3<Scalar>& origin,
                                                                     bool is_standing) const noexcept {
     FixedVector<KnownTriangle<Scalar>, pair_capacity> known;
     for (const auto& pair : pairs) {
       if (pair.piece != piece_ || pair.is_beyond(reach_)) continue;
-      const Vector3<Scalar>& normal = is_standing && !pair.last_normal.isZero(Scalar(0)) ? pair.last_normal : pair.normal;
+      Vector3<Scalar> normal = is_standing && !pair.last_normal.isZero(Scalar(0)) ? pair.last_normal : pair.normal;
+      if (is_standing && pair.state == PairState::ghost) normal.setZero();  // without rows it hides nothing
       known.push_back({pair.triangle, {pair.corners_world.colwise() - origin, normal, pair.features, true, pair.last_normal}});
     }
     return known;

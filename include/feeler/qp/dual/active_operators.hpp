@@ -203,7 +203,8 @@ class ActiveOperators {
   void spread_diagonal() noexcept {
 #pragma GCC unroll 6
     for (int j = 0; j < 6; ++j) {
-      for (int g = 0; g < 6; g += lanes) store(&projector_[as_index(j)][as_index(g)], with_lane<Scalar, lanes>(Group{}, j - g, diagonal_[as_index(j)]));
+      for (int g = 0; g < 6; g += lanes)
+        store(&projector_[as_index(j)][as_index(g)], with_lane<Scalar, lanes>(Group{}, j - g, diagonal_[as_index(j)]));
     }
   }
 

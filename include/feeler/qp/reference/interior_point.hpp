@@ -138,7 +138,8 @@ class InteriorPoint {
     const Scalar affine = step_length(Scalar(1));
     Scalar affine_gap(0);
     for (int k = 0; k < row_count_; ++k) {
-      affine_gap += (multipliers_[as_index(k)] + affine * multiplier_steps_[as_index(k)]) * (slacks_[as_index(k)] + affine * slack_steps_[as_index(k)]);
+      affine_gap +=
+          (multipliers_[as_index(k)] + affine * multiplier_steps_[as_index(k)]) * (slacks_[as_index(k)] + affine * slack_steps_[as_index(k)]);
     }
     const Scalar ratio = affine_gap / gap;
     const Scalar centre = ratio * ratio * ratio * gap / Scalar(row_count_);
@@ -182,7 +183,8 @@ class InteriorPoint {
     Scalar length = Scalar(1) / part;
     for (int k = 0; k < row_count_; ++k) {
       if (slacks_[as_index(k)] + length * slack_steps_[as_index(k)] < Scalar(0)) length = -slacks_[as_index(k)] / slack_steps_[as_index(k)];
-      if (multipliers_[as_index(k)] + length * multiplier_steps_[as_index(k)] < Scalar(0)) length = -multipliers_[as_index(k)] / multiplier_steps_[as_index(k)];
+      if (multipliers_[as_index(k)] + length * multiplier_steps_[as_index(k)] < Scalar(0))
+        length = -multipliers_[as_index(k)] / multiplier_steps_[as_index(k)];
     }
     return part * length < Scalar(1) ? Scalar(part * length) : Scalar(1);
   }

@@ -205,7 +205,8 @@ class ElasticRows {
     for (const int i : list) {
       const Vector3<Scalar> direction = problem.rows[as_index(i)].template head<3>();
       for (int k = 0; k < size_; ++k) {
-        if (rows_[as_index(k)].is_relaxed || !(problem.rows[as_index(k)].template head<3>().dot(direction) > parallel * direction.squaredNorm())) continue;
+        if (rows_[as_index(k)].is_relaxed || !(problem.rows[as_index(k)].template head<3>().dot(direction) > parallel * direction.squaredNorm()))
+          continue;
         joins = relax(k) || joins;
       }
     }

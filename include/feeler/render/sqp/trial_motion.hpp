@@ -172,8 +172,8 @@ class TrialMotionSearch {
     const auto& problem = linearisation_.problem();
     const bool rests_on_assumption = problem.rests_on_assumption();
     rounds_.assumes_valleys = rounds_.assumes_valleys && !rests_on_assumption;  // with it again, two linearisations would take turns
-    // A short step is the last one where it is very short, or where steps shrink so fast that the next one would be.
-    const bool shrinks_fast = problem.is_newton() && last * last < rounds_.previous * scene.very_short() / 2;
+    // A short step is the last one where it is very short, or where steps shrink so fast, and go on to, that the next one would be.
+    const bool shrinks_fast = problem.is_newton() && last < rounds_.previous / 10 && last * last < rounds_.previous * scene.very_short() / 2;
     const bool is_short = last < scene.step_tolerance() && (shrinks_fast || last < scene.very_short());
     rounds_.previous = last;
     const bool rests_on_kept = problem.rests_on_kept();
