@@ -151,15 +151,12 @@ class ClosedSurfaces {
     is_closed_.push_back(true);
     is_turned_.push_back(false);
     is_left_out_.push_back(false);
-    area_.push_back(0);
     surface_[as_index(first)] = surface;
     facing_[as_index(first)] = 1;
     std::vector<int> open{first};
     while (!open.empty()) {
       const int t = open.back();
       open.pop_back();
-      const Matrix3<double> corners = mesh_.corners(t).template cast<double>();
-      area_.back() += (corners.col(1) - corners.col(0)).cross(corners.col(2) - corners.col(0)).norm();
       for (int k = 0; k < 3; ++k) cross_edge(t, k, open);
     }
   }
@@ -186,7 +183,9 @@ class ClosedSurfaces {
 
   /// What surfaces are one, and which of them enclose nothing.
   void join_at_shared_edges() {
+    if (passages_.empty()) return;  // each surface is by itself
     gather_passages();
+    measure_areas();
     each_edge([this](Passages at) {
       const Passage* last = nullptr;  // of a surface that would be open there
       for (const Passage& passage : at) {
@@ -213,6 +212,15 @@ class ClosedSurfaces {
       else passages_[count++] = passage;
     }
     passages_.resize(count);
+  }
+  void measure_areas() {
+    area_.assign(is_closed_.size(), 0.0);
+    for (int t = 0; t < mesh_.triangle_count(); ++t) {
+      const int surface = surface_[as_index(t)];
+      if (surface < 0) continue;
+      const Matrix3<double> corners = mesh_.corners(t).template cast<double>();
+      area_[as_index(surface)] += (corners.col(1) - corners.col(0)).cross(corners.col(2) - corners.col(0)).norm();
+    }
   }
   template <class Visit>
   void each_edge(const Visit& visit) const {
@@ -272,7 +280,7 @@ class ClosedSurfaces {
   std::vector<Passage> passages_;            // at edges of more than two triangles
   DisjointSets joined_;                      // surfaces
   std::vector<bool> is_closed_, is_turned_, is_left_out_;  // of a surface: is_turned_ where a triangle is
-  std::vector<double> area_;                 // likewise, twice its area [m²]
+  std::vector<double> area_;                 // likewise, twice its area, where edges are shared [m²]
 };
 
 }  // namespace detail

@@ -92,12 +92,12 @@ std::string reason_against_margin(const Settings<MeshScalar>& settings, const Sc
            " to 0.001 m; with less, rounding can carry the tool through a surface, and more is felt as a cushion; " +
            (least <= Scalar(Settings<MeshScalar>().margin) ? "leave the default of 1 µm if in doubt"
                                                            : "give such a margin, or all lengths in metres");
+  const bool is_tool = rounding.reach > rounding.farthest;  // that is the farther away
   if (!(10 * rounding.of_poses() <= (is_narrow ? most : margin)))
-    return (rounding.reach > rounding.farthest
-                ? "HapticRenderer: the tool is so large, or its reference point so far from the origin of its frame, that poses are rounded to "
-                : "HapticRenderer: the object reaches " + text(rounding.farthest) + " m from the origin, where poses are rounded to ") +
+    return (is_tool ? "HapticRenderer: the tool is so large, or its reference point so far from the origin of its frame, that poses are rounded to "
+                    : "HapticRenderer: the object reaches " + text(rounding.farthest) + " m from the origin, where poses are rounded to ") +
            text(rounding.of_poses()) + " m; " +
-           (rounding.reach > rounding.farthest ? "give a reference point on the tool, and all lengths in metres" : "move the scene to the origin") +
+           (is_tool ? "give a reference point on the tool, and all lengths in metres" : "move the scene to the origin") +
            (is_narrow                          ? ", or use double"
             : 10 * rounding.of_poses() <= most ? ", or give a larger margin"
                                                : "");
