@@ -77,20 +77,19 @@ std::vector<Value> some(bool is_quick, std::initializer_list<Value> all, std::in
 /// Scenes that are moved away and scaled: one of each kind.
 const std::vector<std::string> small_scenes{"bore_24", "plate_2", "wedge_4"};
 
-std::vector<std::string> motion_names() {
+template <class Named>
+std::vector<std::string> names_of(const std::vector<Named>& list) {
   std::vector<std::string> names;
-  for (const auto& motion : motions()) names.push_back(motion.name);
+  for (const auto& one : list) names.push_back(one.name);
   return names;
 }
 
 /// @return the values that are asked for
 Values read(const Selection& selection) {
-  std::vector<std::string> known_sweeps;
-  for (const auto& sweep : sweeps()) known_sweeps.push_back(sweep.name);
-  check_names("sweep", selection.sweeps, known_sweeps);
+  check_names("sweep", selection.sweeps, names_of(sweeps()));
   check_names("scene", selection.scenes, scene_names());
   for (const auto& name : selection.renderings) rendering(name);
-  check_names("motion", selection.motions, motion_names());
+  check_names("motion", selection.motions, names_of(motions()));
   Values only;
   for (const auto& text : selection.only) read_only(text, only);
   return only;
@@ -115,9 +114,7 @@ const std::vector<Sweep>& sweeps() {
 
 std::vector<Cell> cells_of(const Selection& selection) {
   const Values only = read(selection);
-  std::vector<std::string> known_renderings;
-  for (const auto& rendering : renderings()) known_renderings.push_back(rendering.name);
-
+  const std::vector<std::string> known_renderings = names_of(renderings());
   const bool quick = selection.is_quick;
   const std::vector<std::string> quick_scenes{"cavity_1mm", "spline_20um", "sulcus", "terrain_968", "bore_24", "wedge_4"};
   std::vector<Cell> cells;
@@ -158,7 +155,7 @@ std::vector<Cell> cells_of(const Selection& selection) {
     if (sweep.name == "rate")
       vary(scenes, some(quick, {250, 500, 1000, 2000, 4000, 10000}, {500, 1000, 4000}), [](Cell& cell, int value) { cell.rate = value; });
     if (sweep.name == "motion")
-      vary(scenes, quick ? std::vector<std::string>{"usual", "quick"} : motion_names(),
+      vary(scenes, quick ? std::vector<std::string>{"usual", "quick"} : names_of(motions()),
            [](Cell& cell, const std::string& name) { cell.motion = name; });
     for (const auto& scalar : scalars) {
       if (sweep.name == "offset")

@@ -85,17 +85,16 @@ std::string markdown_tables(const std::filesystem::path& folder) {
         tables[text(row, "rendering")].try_emplace(Key(number(row, choice.column), ""), times).first->second.add(row);
     for (const auto& [rendering, lines] : tables) add_table(std::string(choice.label) + ", `" + rendering + "`", lines);
   }
-  std::map<Key, Line> by_rendering;
-  for (const Row& row : rows)
-    // Of the scenes that all can render: one convex tool.
-    if (is_standard_but_for(row, "") && !has_several_pieces(text(row, "scene")))
-      by_rendering.try_emplace(Key(0, text(row, "rendering")), times).first->second.add(row);
-  add_table("rendering", by_rendering);
-  std::map<Key, Line> by_motion;
-  for (const Row& row : rows)
-    if (is_standard_but_for(row, "motion") && text(row, "rendering") == Cell().rendering)
-      by_motion.try_emplace(Key(0, text(row, "motion")), times).first->second.add(row);
-  add_table("motion of the hand, `double`", by_motion);
+  const auto add_table_by_name = [&](const std::string& head, const char* column, const auto& is_in) {
+    std::map<Key, Line> lines;
+    for (const Row& row : rows)
+      if (is_in(row)) lines.try_emplace(Key(0, text(row, column)), times).first->second.add(row);
+    add_table(head, lines);
+  };
+  // Of the scenes that all can render: one convex tool.
+  add_table_by_name("rendering", "rendering", [](const Row& row) { return is_standard_but_for(row, "") && !has_several_pieces(text(row, "scene")); });
+  add_table_by_name("motion of the hand, `double`", "motion",
+                    [](const Row& row) { return is_standard_but_for(row, "motion") && text(row, "rendering") == Cell().rendering; });
   if (result.empty())
     throw std::runtime_error("In " + (folder / results_file.name).string() +
                              " nothing is varied with all else by default: there is no table to make of it.");
