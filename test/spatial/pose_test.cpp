@@ -46,6 +46,33 @@ BOOST_AUTO_TEST_CASE(a_product_of_poses_maps_points_as_one_after_the_other_and_t
   }
 }
 
+BOOST_AUTO_TEST_CASE(poses_are_equal_where_all_their_numbers_are) {
+  std::mt19937 bits(14);
+  const Pose<double> pose = random_pose(bits);
+  BOOST_TEST((pose == Pose<double>(pose)));
+  for (int i = 0; i < 7; ++i) {
+    Pose<double> other = pose;
+    (i < 3 ? other.translation[i] : other.rotation.coeffs()[i - 3]) += 1e-15;
+    BOOST_TEST(!(pose == other));
+  }
+  Pose<double> opposite = pose;
+  opposite.rotation.coeffs() *= -1;
+  BOOST_TEST(!(pose == opposite));  // the same rotation, of other numbers
+}
+
+BOOST_AUTO_TEST_CASE(a_motion_and_its_opposite_lead_back_and_a_motion_between_two_poses_from_one_to_the_other) {
+  std::mt19937 bits(15);
+  for (int i = 0; i < 100; ++i) {
+    const Pose<double> from = random_pose(bits), to = random_pose(bits);
+    const Twist<double> motion = motion_between(from, to);
+    const Pose<double> there = moved(from, motion), back = moved(to, -motion);
+    BOOST_TEST((there.translation - to.translation).norm() < 1e-15);
+    BOOST_TEST((there.rotation.toRotationMatrix() - to.rotation.toRotationMatrix()).norm() < 1e-14);
+    BOOST_TEST((back.translation - from.translation).norm() < 1e-15);
+    BOOST_TEST((back.rotation.toRotationMatrix() - from.rotation.toRotationMatrix()).norm() < 1e-14);
+  }
+}
+
 BOOST_AUTO_TEST_CASE(the_sentence_about_a_pose_that_is_not_finite_is_true_of_all_that_are_not) {
   for (const double huge : {1e155, 1e300}) {
     BOOST_TEST((!Pose<double>{{0, huge, 0}, Quaternion<double>::Identity()}.is_finite()));
