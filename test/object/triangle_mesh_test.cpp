@@ -378,6 +378,7 @@ BOOST_AUTO_TEST_CASE(a_mesh_from_the_arrays_of_an_engine_is_that_from_matrices) 
   BOOST_TEST(contains(refused(8, std::size_t(-1)), "there may be 715827882 of each"));
   BOOST_TEST(contains(refused(std::size_t(1) << 40, 12), "there may be 715827882 of each"));
   BOOST_TEST(contains(refusal([&] { Mesh(millimetres.data(), 8, static_cast<const int*>(nullptr), 12); }), "null"));
+  BOOST_TEST(contains(Mesh::reason_against(static_cast<const float*>(nullptr), 8, indices.data(), 12), "null"));
   indices[4] = 4294967295U;  // -1 once more
   BOOST_TEST(contains(refused(8, 12), "triangle 1 has the index 4294967295, but there are 8 vertices"));
   for (const double scale : {0.0, -1.0, std::nan(""), HUGE_VAL})
@@ -415,6 +416,78 @@ BOOST_AUTO_TEST_CASE(float_and_long_double_meshes_have_the_same_topology) {
   for (int t = 0; t < 12; ++t)
     for (int k = 0; k < 3; ++k) BOOST_TEST((narrow.topology().edge_convexity(t, k) == wide.topology().edge_convexity(t, k)));
   BOOST_TEST(feeler::edge_cone_contains<float>(narrow, 0, 0, feeler::Vector3<float>(-1, 0, -1).normalized(), 0.0F));
+}
+
+BOOST_AUTO_TEST_CASE(the_ends_of_an_edge_of_four_triangles_are_at_a_boundary) {
+  Points<double> p(16, 3);
+  p.topRows(8) = cube_points();
+  p.bottomRows(8) = cube_points().rowwise() + Eigen::RowVector3d(1, 1, 0);  // they share an edge along z
+  Triangles t(24, 3);
+  t.topRows(12) = cube_triangles();
+  t.bottomRows(12) = cube_triangles().array() + 8;
+  const Mesh mesh(p, t);
+  BOOST_TEST(mesh.report().non_manifold_edges == 1);
+  BOOST_TEST(mesh.report().boundary_edges == 0);
+  for (int v = 0; v < mesh.vertex_count(); ++v) {
+    const bool is_shared = mesh.vertex(v).x() == 1 && mesh.vertex(v).y() == 1;
+    BOOST_TEST((mesh.topology().vertex_convexity(v) == (is_shared ? Convexity::boundary : Convexity::convex)));
+  }
+}
+
+BOOST_AUTO_TEST_CASE(triangles_without_area_at_a_vertex_are_no_sheets_of_their_own) {
+  Triangles t(14, 3);
+  t.topRows(12) = cube_triangles();
+  t.row(12) << 5, 5, 7;
+  t.row(13) << 6, 6, 6;
+  const Mesh mesh(cube_points(), t);
+  BOOST_TEST(mesh.report().degenerate_triangles == 2);
+  BOOST_TEST(mesh.report().non_manifold_vertices == 0);
+  BOOST_TEST(mesh.report().boundary_edges == 0);
+  BOOST_TEST(mesh.report().is_closed_manifold());
+}
+
+BOOST_AUTO_TEST_CASE(a_surface_of_which_a_triangle_is_turned_is_no_closed_manifold) {
+  Triangles t = cube_triangles();
+  std::swap(t(4, 0), t(4, 1));
+  const Mesh mesh(cube_points(), t);
+  BOOST_TEST(mesh.report().boundary_edges + mesh.report().non_manifold_edges + mesh.report().non_manifold_vertices == 0);
+  BOOST_TEST(!mesh.report().is_closed_manifold());
+}
+
+BOOST_AUTO_TEST_CASE(vertices_of_no_triangle_are_left_out_and_tell_nothing_of_the_size) {
+  Points<double> p(11, 3);
+  p.topRows(8) = cube_points();
+  p.row(8) << 50, 0, 0;
+  p.row(9) << 50, 0, 0;
+  p.row(10) << 1, 1, 1;  // where another one is
+  const Mesh mesh(p, cube_triangles());
+  BOOST_TEST(mesh.vertex_count() == 8);
+  BOOST_TEST(mesh.report().vertices == 8);
+  BOOST_TEST(mesh.report().welded_vertices == 0);
+  BOOST_TEST((mesh.bounds().max() == Vector(1, 1, 1)));
+  BOOST_TEST(!mesh.report().looks_like_millimetres());
+}
+
+BOOST_AUTO_TEST_CASE(the_width_of_a_mesh_is_its_longest_side_whichever_that_is) {
+  for (int axis = 0; axis < 3; ++axis) {
+    Points<double> p = cube_points();
+    p.col(axis) *= 12;
+    const Mesh mesh(p, cube_triangles());
+    BOOST_TEST(mesh.report().width() == 12);
+    BOOST_TEST(mesh.report().looks_like_millimetres());
+  }
+}
+
+BOOST_AUTO_TEST_CASE(at_a_corner_the_edges_of_the_triangle_itself_are_no_neighbours) {
+  std::mt19937 bits(13);
+  const Mesh alone(points({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}), rows({{0, 1, 2}}));
+  const Mesh two(points({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {-1, 0, 0}}), rows({{0, 1, 2}, {0, 2, 3}}));
+  for (int i = 0; i < 200; ++i) {
+    const Vector any = Vector(unit(bits), unit(bits), unit(bits)).normalized();
+    for (int corner = 0; corner < 3; ++corner) BOOST_TEST(feeler::neighbours_point_away<double>(alone, 0, corner, any, 0.0));
+    // The other triangle has an edge along −x there.
+    BOOST_TEST(feeler::neighbours_point_away<double>(two, 0, 0, any, 0.0) == (any.x() >= 0));
+  }
 }
 
 BOOST_AUTO_TEST_SUITE_END()
