@@ -3,6 +3,7 @@
 #include <boost/test/unit_test.hpp>
 
 #include <algorithm>
+#include <cmath>
 #include <random>
 #include <set>
 #include <vector>
@@ -158,6 +159,38 @@ BOOST_AUTO_TEST_CASE(a_point_over_a_wall_that_is_as_rough_as_rounding_has_a_tria
   BOOST_TEST_REQUIRE(mesh.walls().count() == 1);
   for (int i = 0; i < 1000; ++i)
     BOOST_TEST(feeler::triangle_of_wall_under(mesh, 0, Eigen::Vector3d(fraction(bits), fraction(bits), 0.3), 1e-12) >= 0);
+}
+
+BOOST_AUTO_TEST_CASE(a_wall_lies_about_the_first_corner_of_one_of_its_largest_triangles) {
+  std::mt19937 bits(5);
+  for (const int n : {1, 2, 9, 40}) {
+    const auto mesh = sheet(bits, n, 0);
+    const auto area_of = [&](int t) {
+      const Eigen::Matrix3d corners = mesh.corners(t);
+      return (corners.col(1) - corners.col(0)).cross(corners.col(2) - corners.col(0)).norm();
+    };
+    BOOST_TEST_REQUIRE(mesh.walls().count() == 1);
+    const auto& wall = mesh.walls()[0];
+    double largest = 0, farthest = 0;
+    for (int t = 0; t < mesh.triangle_count(); ++t) largest = std::max(largest, area_of(t));
+    for (int v = 0; v < mesh.vertex_count(); ++v) farthest = std::max(farthest, (mesh.vertex(v) - mesh.corners(wall.triangle).col(0)).norm());
+    BOOST_TEST(area_of(wall.triangle) >= largest / std::sqrt(2.0) * (1 - 1e-12));  // by the binary exponent of its square
+    BOOST_TEST(double(wall.radius) >= farthest);
+    BOOST_TEST(double(wall.radius) <= farthest * (1 + 1e-6));
+  }
+}
+
+BOOST_AUTO_TEST_CASE(a_point_beside_the_rim_of_a_wall_by_less_than_a_seam_is_over_it) {
+  feeler::Points<double> vertices;
+  feeler::Triangles triangles;
+  feeler::scenes::mesh_height_field({0, 1, 0, 1, 8, 8}, [](double, double) { return 0.0; }, vertices, triangles);
+  const TriangleMesh<double> mesh(vertices, triangles);
+  const double seam = 1e-3;
+  for (const double beside : {0.9 * seam, 1.1 * seam}) {
+    for (const Eigen::Vector3d& point : {Eigen::Vector3d(-beside, 0.3, 0.2), Eigen::Vector3d(1 + beside, 0.3, -0.2),
+                                         Eigen::Vector3d(0.3, -beside, 0.2), Eigen::Vector3d(0.3, 1 + beside, 0)})
+      BOOST_TEST((feeler::triangle_of_wall_under(mesh, 0, point, seam) >= 0) == (beside < seam));
+  }
 }
 
 BOOST_AUTO_TEST_SUITE_END()
