@@ -291,4 +291,26 @@ BOOST_AUTO_TEST_CASE(a_point_near_the_surface_is_not_enclosed) {
   BOOST_TEST(solid.interior.encloses(solid.mesh, Vector(0.3, 0.2, 1 - 2e-11), 1e-11));
 }
 
+BOOST_AUTO_TEST_CASE(a_point_near_any_side_of_a_cube_is_not_enclosed) {
+  const Solid solid(cube(1));
+  for (int axis = 0; axis < 3; ++axis) {
+    for (const double side : {1.0, -1.0}) {
+      Vector point(0.3, 0.2, 0.1);
+      point[axis] = side * (1 - 4e-4);
+      BOOST_TEST(!solid.interior.encloses(solid.mesh, point, 1e-3));
+      point[axis] = side * (1 - 2e-3);
+      BOOST_TEST(solid.interior.encloses(solid.mesh, point, 1e-3));
+    }
+  }
+}
+
+BOOST_AUTO_TEST_CASE(a_room_in_whose_wall_a_block_stands_is_no_cavity_of_that) {
+  // Of the room's twelve triangles the two of one wall lie in the block.
+  const Solid solid(cube(1).inverted().with(block({0.8, -0.5, -0.5}, {1.2, 0.5, 0.5})));
+  BOOST_TEST(solid.contains(Vector(0.9, 0.1, 0.2)));
+  BOOST_TEST(solid.contains(Vector(1.1, 0.1, 0.2)));
+  BOOST_TEST(!solid.contains(Vector(0.5, 0.1, 0.2)));
+  BOOST_TEST(!solid.contains(Vector(1.5, 0.1, 0.2)));
+}
+
 BOOST_AUTO_TEST_SUITE_END()
