@@ -52,4 +52,23 @@ BOOST_AUTO_TEST_CASE(a_part_without_a_place_is_refused_and_leaves_the_assembly_a
   BOOST_TEST(assembly.mesh().triangle_count() == 1);
 }
 
+BOOST_AUTO_TEST_CASE(triangles_are_numbered_part_by_part) {
+  const Points<double> square{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}};
+  const Triangles one{{0, 1, 2}}, two{{0, 1, 2}, {0, 2, 3}}, none(0, 3);
+  MeshAssembly<double> assembly;
+  BOOST_TEST(assembly.add(square, two) == 0);
+  BOOST_TEST(assembly.add(square, one, {{0, 0, 1}, Quaternion<double>::Identity()}) == 1);
+  BOOST_TEST(assembly.add(square, none) == 2);
+  BOOST_TEST(assembly.add(square, two, {{0, 0, 2}, Quaternion<double>::Identity()}) == 3);
+  const std::array<int, 5> parts{0, 0, 1, 3, 3};
+  const TriangleMesh<double> mesh = assembly.mesh();
+  BOOST_TEST_REQUIRE(mesh.triangle_count() == 5);
+  for (int t = 0; t < 5; ++t) {
+    BOOST_TEST(assembly.part_of(t) == parts[std::size_t(t)]);
+    BOOST_TEST(mesh.corners(t).row(2).mean() == (parts[std::size_t(t)] == 3 ? 2 : parts[std::size_t(t)]));
+  }
+  const std::array<int, 4> first{0, 2, 3, 3};
+  for (int part = 0; part < 4; ++part) BOOST_TEST(assembly.first_triangle(part) == first[std::size_t(part)]);
+}
+
 BOOST_AUTO_TEST_SUITE_END()
