@@ -36,8 +36,10 @@ BOOST_AUTO_TEST_CASE(heights_are_on_the_side_of_the_tool_and_room_is_what_a_poin
     BOOST_TEST((triangle.face_normal() - turn * Vector::UnitZ()).norm() < 1e-14);
     BOOST_TEST((triangle.outward() - turn * Vector(0, 0, side)).norm() < 1e-14);
     BOOST_TEST(std::abs(triangle.edge_length(1) - 5) < 1e-14);
-    BOOST_TEST(triangle.squared_size() >= 9 - 1e-13);
-    BOOST_TEST(triangle.squared_size() <= 16 + 1e-13);
+    BOOST_TEST(std::abs(triangle.squared_size() - 16) < 1e-12);
+    triangle.set(columns(placed(0, 0, 0), placed(0, 4, 0), placed(3, 0, 0)), turn * Vector(0, 0, side));  // the longer side first
+    BOOST_TEST(std::abs(triangle.squared_size() - 16) < 1e-12);
+    triangle.set(columns(placed(0, 0, 0), placed(3, 0, 0), placed(0, 4, 0)), turn * Vector(0, 0, side));
 
     const double x = 3 * unit(bits), y = 3 * unit(bits), z = unit(bits);
     const Vector point = placed(x, y, z);
