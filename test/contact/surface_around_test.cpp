@@ -100,6 +100,53 @@ BOOST_AUTO_TEST_CASE(a_flat_surface_rises_nowhere_however_it_is_turned_and_one_b
   }
 }
 
+BOOST_AUTO_TEST_CASE(a_wall_is_flat_across_its_edges_though_rounding_bends_them) {
+  const Eigen::Matrix3d axes = Eigen::Matrix3d::Identity();
+  for (const double slope : {1e-9, -1e-9}) {
+    const Mesh mesh = sheet(slope);
+    const int triangle = triangle_at(-1, 0);
+    BOOST_TEST_REQUIRE(mesh.walls().count() == 1);
+    BOOST_TEST_REQUIRE((mesh.topology().edge_convexity(triangle, right) != feeler::Convexity::flat));
+    Surface surface(mesh, axes, 1e-9);
+    surface.stand_on(triangle);
+    BOOST_TEST(surface.is_flat_across(right));
+    surface.stand_on(triangle_at(1, 0));
+    BOOST_TEST(!surface.is_flat_across(right));  // there it ends
+  }
+}
+
+BOOST_AUTO_TEST_CASE(nothing_rises_beyond_the_corner_of_a_triangle_alone) {
+  // Seen along any normal one of its own edges may rise; what is beside it is what counts.
+  std::mt19937 bits(8);
+  const feeler::Points<double> vertices{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
+  const Mesh mesh(vertices, feeler::Triangles{{0, 1, 2}});
+  const Eigen::Matrix3d axes = Eigen::Matrix3d::Identity();
+  Surface surface(mesh, axes, 1e-9);
+  surface.stand_on(0);
+  for (int trial = 0; trial < 100; ++trial) {
+    const Vector way = random_direction(bits), normal = random_direction(bits);
+    for (int corner = 0; corner < 3; ++corner) BOOST_TEST(!surface.rises_beyond(corner, way, normal));
+  }
+}
+
+BOOST_AUTO_TEST_CASE(a_triangle_that_is_in_no_wall_is_the_only_one_under_a_point) {
+  feeler::Points<double> vertices(25, 3);
+  const Mesh flat = sheet(0);
+  std::mt19937 bits(9);
+  for (int i = 0; i < 25; ++i) vertices.row(i) = (flat.vertex(i) + Vector(0, 0, 0.1 * unit(bits))).transpose();
+  feeler::Triangles triangles(32, 3);
+  for (int t = 0; t < 32; ++t) triangles.row(t) << flat.triangle(t)[0], flat.triangle(t)[1], flat.triangle(t)[2];
+  const Mesh rough(vertices, triangles);
+  BOOST_TEST_REQUIRE(rough.walls().count() == 0);
+  const Eigen::Matrix3d axes = Eigen::Matrix3d::Identity();
+  Surface surface(rough, axes, 1e-9);
+  const int triangle = triangle_at(-2, -2);
+  surface.stand_on(triangle);
+  const Vector corner = rough.corners(triangle).col(0);
+  BOOST_TEST(surface.triangle_under({0.9, -1.9, 0.3}, corner) == -1);
+  BOOST_TEST(!surface.is_under({0.9, -1.9, 0.3}, corner));
+}
+
 BOOST_AUTO_TEST_CASE(for_a_point_beside_a_wall_the_triangle_is_that_at_the_rim_on_the_way) {
   const Mesh mesh = sheet(0);
   const Eigen::Matrix3d axes = Eigen::Matrix3d::Identity();
