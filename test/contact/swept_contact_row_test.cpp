@@ -151,6 +151,28 @@ BOOST_AUTO_TEST_CASE(the_closest_points_of_parallel_lines_bend_as_a_point_and_a_
   BOOST_TEST(on_face.core_distance == 0);
 }
 
+BOOST_AUTO_TEST_CASE(a_row_about_a_point_lasts_for_an_eightieth_of_its_distance_and_bends_no_more_than_half_of_the_radius_allows) {
+  const Eigen::Matrix3d axes = Eigen::Matrix3d::Identity();
+  const double radius = 0.01;
+  const feeler::Sphere<double> ball(radius);
+  Eigen::Matrix3d triangle;
+  triangle << 0, 1, 0, 0, 0, 1, 0, 0, 0;
+  feeler::ClosestPoints<double> closest;
+  closest.features.size = 1;
+  const auto row_at = [&](double gap) {
+    closest.distance = gap;
+    return feeler::PatchRowMaker<feeler::Sphere<double>>(ball, axes, Vector::Zero(), 1e-9).row_of_closest(closest, triangle);
+  };
+  const auto outlasts = [](const SweptContactRow<double>& row, double way) { return row.outlasts(way * feeler::Vector6<double>::Unit(0)); };
+  for (const double gap : {1e-6, 1e-3}) {
+    BOOST_TEST(outlasts(row_at(gap), 0.99 * (radius + gap) / 80));
+    BOOST_TEST(!outlasts(row_at(gap), 1.01 * (radius + gap) / 80));
+    // Beside the point the distance grows as a circle bends.
+    BOOST_TEST(curvature_of(row_at(gap))(0, 0) == 1 / (radius + gap), boost::test_tools::tolerance(1e-9));
+  }
+  for (const double gap : {-0.6 * radius, -radius}) BOOST_TEST(curvature_of(row_at(gap))(0, 0) == 2 / radius, boost::test_tools::tolerance(1e-9));
+}
+
 BOOST_AUTO_TEST_CASE(a_face_is_not_bent_by_the_radius) {
   SweptContactRow<double> row;
   row.normal = Vector(1, 2, 3).normalized();
