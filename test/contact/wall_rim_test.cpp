@@ -183,4 +183,24 @@ BOOST_AUTO_TEST_CASE(a_face_a_little_above_a_level_wall_finds_its_rim) {
   BOOST_TEST(found.size() == 2u);
 }
 
+BOOST_AUTO_TEST_CASE(of_a_face_of_as_many_corners_as_there_is_room_for_each_counts) {
+  // A round face whose corners point at the rim one by one: only the tip of that corner is over it.
+  std::mt19937 bits(6);
+  Sheet sheet(bits, 4);
+  sheet.axes.setIdentity();
+  sheet.mesh = sheet.make(4);
+  constexpr int corners = feeler::OutermostAtRim<double, double>::capacity;
+  const double radius = 0.1, step = 2 * 3.14159265358979 / corners, distance = radius * (1 + std::cos(step)) / 2;
+  for (const int tip : {0, 1, 64, 127}) {
+    const auto corner = [&](int k) {
+      const double angle = step * (k - tip) - 3.14159265358979 / 2;
+      return Vector(0.4 + radius * std::cos(angle), distance + radius * std::sin(angle), 1e-6);
+    };
+    std::set<int> found;
+    feeler::OutermostAtRim<double, double>(sheet.mesh, sheet.mesh.walls().of_triangle(0), corners, corner, Vector::UnitZ())
+        .find([](int) { return false; }, [&](int t) { found.insert(t); });
+    BOOST_TEST(found.size() == 1U, "corner " << tip);
+  }
+}
+
 BOOST_AUTO_TEST_SUITE_END()
