@@ -172,6 +172,18 @@ BOOST_AUTO_TEST_CASE(a_contact_outlasts_a_slide_of_a_quarter_of_its_room_whether
   BOOST_TEST(!outlasts(5, 2.51e-3));
 }
 
+BOOST_AUTO_TEST_CASE(a_contact_outlasts_a_turn_about_it_however_far_the_reference_point_moves) {
+  ContactRow<double> row;
+  row.arm = {0.1, 0, 0};
+  row.room = 1e-4;
+  feeler::Vector6<double> about_it;
+  about_it << 0, -1e-3, 0, 0, 0, 1e-2;
+  BOOST_TEST(row.outlasts(about_it));
+  feeler::Vector6<double> farther = about_it;
+  farther[1] = 1e-3;
+  BOOST_TEST(!row.outlasts(farther));
+}
+
 BOOST_AUTO_TEST_CASE(curvature_is_symmetric) {
   std::mt19937 bits(4);
   for (int i = 0; i < 100; ++i)
