@@ -49,9 +49,15 @@ BOOST_AUTO_TEST_CASE(bad_input_is_refused_with_a_sentence) {
   const double infinity = std::numeric_limits<double>::infinity();
   BOOST_TEST(contains(refusal([] { Segment<double>(Vector(1, 2, 3), Vector(1, 2, 3)); }), "the same point"));
   BOOST_TEST(contains(refusal([&] { Segment<double>(Vector(nan, 2, 3), Vector(1, 2, 3)); }), "NaN"));
+  BOOST_TEST(contains(refusal([&] { Segment<double>(Vector(1, 2, 3), Vector(1, infinity, 3)); }), "infinity"));
   BOOST_TEST(contains(refusal([] { Box<double>(Vector(1, 0, 1)); }), "zero or negative"));
   BOOST_TEST(contains(refusal([] { Box<double>(Vector(1, -1, 1)); }), "zero or negative"));
   BOOST_TEST(contains(refusal([&] { Box<double>(Vector(1, infinity, 1)); }), "infinity"));
+}
+
+BOOST_AUTO_TEST_CASE(the_middle_of_a_tool_is_the_mean_of_its_vertices) {
+  BOOST_TEST(feeler::middle_of(Box<double>(Vector(1, 2, 3))).norm() == 0);
+  BOOST_TEST((feeler::middle_of(Segment<double>(Vector(1, 2, 3), Vector(3, 0, -3))) == Vector(2, 1, 0)));
 }
 
 BOOST_AUTO_TEST_SUITE_END()
