@@ -74,4 +74,11 @@ BOOST_AUTO_TEST_CASE(bad_input_is_refused_with_a_sentence) {
   BOOST_TEST(refusal([] { Sphere<double> tool(1e-7); }) == "accepted");
 }
 
+BOOST_AUTO_TEST_CASE(a_point_and_a_sphere_are_where_they_were_in_another_scalar) {
+  using Narrow = feeler::Vector3<float>;
+  BOOST_TEST((Point<double>(Vector(1, -2, 3)).cast<float>().vertex(0) == Narrow(1, -2, 3)));
+  BOOST_TEST((Sphere<double>(Vector(1, -2, 3), 0.5).cast<float>().vertex(0) == Narrow(1, -2, 3)));
+  BOOST_TEST((Capsule<double>({{0, 0, -1}, {0.5, 0, 1}}, 0.25).cast<float>().vertex(1) == Narrow(0.5F, 0, 1)));
+}
+
 BOOST_AUTO_TEST_SUITE_END()
