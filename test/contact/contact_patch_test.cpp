@@ -6,6 +6,7 @@
 #include <cmath>
 #include <initializer_list>
 #include <random>
+#include <set>
 #include <vector>
 
 #include "feeler/proximity/separation.hpp"
@@ -44,6 +45,17 @@ Mesh mesh_of(std::initializer_list<Vector> points, std::initializer_list<std::ar
 Mesh floor() { return mesh_of({{-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}}, {{0, 1, 2}, {0, 2, 3}}); }
 /// A roof whose ridge is the y axis; slopes of 45° and no bottom.
 Mesh roof() { return mesh_of({{0, -1, 0}, {0, 1, 0}, {1, 0, -1}, {-1, 0, -1}}, {{0, 2, 1}, {0, 1, 3}}); }
+/// A floor cut along y into strips of a width, from x = −5 to 5 of them, of two triangles each.
+Mesh strips(double width) {
+  feeler::Points<double> vertices(22, 3);
+  feeler::Triangles triangles(20, 3);
+  for (int i = 0; i < 22; ++i) vertices.row(i) << width * (i / 2 - 5), i % 2 == 0 ? -1 : 1, 0;
+  for (int i = 0; i < 10; ++i) {
+    triangles.row(2 * i) << 2 * i, 2 * i + 2, 2 * i + 3;
+    triangles.row(2 * i + 1) << 2 * i, 2 * i + 3, 2 * i + 1;
+  }
+  return {vertices, triangles};
+}
 /// A spike that points up, with its tip at the origin.
 Mesh spike() { return mesh_of({{0, 0, 0}, {1, -1, -3}, {1, 1, -3}, {-1, 0, -3}}, {{0, 1, 2}, {0, 2, 3}, {0, 3, 1}}); }
 
@@ -54,6 +66,8 @@ struct Found {
   bool is_ghost = false;
   int nearer = -1;  // the triangle that the patch names
   std::vector<int> continuations;  // those that it visits, of a plane nearer than `in_touch`
+  std::set<int> at_rim;            // those that it visits at the rim of the wall
+  bool is_filler = false;
 
   int count(FeaturePair kind) const {
     int n = 0;
@@ -78,6 +92,8 @@ Found find(const Tool& tool, const Mesh& mesh, int triangle, const feeler::Pose<
   found.distance = closest.distance;
   found.nearer = patch.nearer_triangle(closest);
   patch.visit_continuations(in_touch, [&](int continuation) { found.continuations.push_back(continuation); });
+  patch.visit_rim([](int) { return false; }, [&](int other) { found.at_rim.insert(other); });
+  found.is_filler = patch.is_filler();
   return found;
 }
 
@@ -498,6 +514,160 @@ BOOST_AUTO_TEST_CASE(a_contact_about_a_corner_does_not_outlast_a_slide_in_which_
     };
     BOOST_TEST(row.outlasts(slide(gap / 1000)));
     BOOST_TEST(!row.outlasts(slide(gap / 100)));
+  }
+}
+
+BOOST_AUTO_TEST_CASE(a_triangle_under_a_face_whose_vertices_are_over_others_of_its_wall_only_fills_it) {
+  const Box box(Vector(0.035, 0.02, 0.01));
+  const Mesh mesh = strips(0.01);
+  for (const double gap : {1e-6, 0.0}) {
+    for (int triangle = 0; triangle < 20; ++triangle) {
+      const Found found = find(box, mesh, triangle, at({0, 0, 0.01 + gap}));
+      const bool has_vertices = triangle / 2 == 1 || triangle / 2 == 8, is_under = triangle / 2 > 1 && triangle / 2 < 8;
+      BOOST_TEST_CONTEXT("triangle " << triangle << " gap " << gap) {
+        if (is_under) BOOST_TEST(found.is_filler);
+        if (has_vertices) BOOST_TEST(!found.is_filler);
+        if (!is_under) continue;
+        BOOST_TEST_REQUIRE(found.rows.size() == 1);
+        BOOST_TEST((found.rows[0].kind == FeaturePair::vertex_face));  // of the triangle's plane, which does not turn with the tool
+        BOOST_TEST((found.rows[0].normal - Vector::UnitZ()).norm() < 1e-9);
+        BOOST_TEST(std::abs(found.rows[0].gap - gap) < 1e-12);
+      }
+    }
+  }
+}
+
+BOOST_AUTO_TEST_CASE(a_triangle_with_rows_that_are_not_as_close_as_it_is_does_not_only_fill_its_wall) {
+  // The left end of the box is lower by 60 nm, over the strip beside; the right end stands over this one.
+  const Box box(Vector(0.06, 0.02, 0.01));
+  const double tilt = 5e-7;
+  const Found found = find(box, strips(0.1), 2 * 5 + 1, at({0, 0.5, 0.01 + 1e-6 + 0.06 * tilt}, turn(-tilt, Vector::UnitY())));
+  BOOST_TEST(found.count(FeaturePair::vertex_face) >= 2);
+  BOOST_TEST(!found.is_filler);
+}
+
+BOOST_AUTO_TEST_CASE(amid_a_wall_a_triangle_without_vertices_over_it_has_no_rows_and_holds_all_the_same) {
+  // A floor of 20 × 20 squares of 1 cm, under a box of 7 × 5 cm.
+  feeler::Points<double> vertices(441, 3);
+  feeler::Triangles triangles(800, 3);
+  for (int i = 0; i < 441; ++i) vertices.row(i) << 0.01 * (i % 21 - 10), 0.01 * (i / 21 - 10), 0;
+  for (int i = 0; i < 400; ++i) {
+    const int corner = i / 20 * 21 + i % 20;
+    triangles.row(2 * i) << corner, corner + 1, corner + 22;
+    triangles.row(2 * i + 1) << corner, corner + 22, corner + 21;
+  }
+  const Mesh mesh(vertices, triangles);
+  const Found found = find(Box(Vector(0.035, 0.025, 0.01)), mesh, 2 * (10 * 20 + 10), at({0, 0, 0.01 + in_touch}));
+  BOOST_TEST(found.has_rows);
+  BOOST_TEST(found.rows.size() == 0);
+}
+
+BOOST_AUTO_TEST_CASE(a_face_that_ends_over_the_rim_of_a_wall_names_the_triangles_there) {
+  const Box box(Vector(0.03, 0.02, 0.01));
+  const std::set<int> none, right{0}, both{0, 1};
+  const auto rim = [&](double x, double y, double tilt = 0) {
+    const double height = 0.02 * std::sin(tilt) + 0.01 * std::cos(tilt) + in_touch;
+    return find(box, floor(), 0, at({x, y, height}, turn(tilt, Vector::UnitX()))).at_rim;
+  };
+  BOOST_TEST((rim(0.5, -0.5) == none));
+  BOOST_TEST((rim(1, -0.5) == right));  // the rim at x = 1 is of the first triangle alone
+  BOOST_TEST((rim(1, 1) == both));      // and that at y = 1 of the second
+  BOOST_TEST((rim(1, -0.5, 0.3) == none));  // it stands on an edge
+}
+
+BOOST_AUTO_TEST_CASE(a_patch_finds_the_same_whatever_it_found_before) {
+  const Box box(Vector(0.03, 0.02, 0.01));
+  const Mesh mesh = floor();
+  const feeler::FeatureIncidence incidence = feeler::incidence_of(box);
+  const Eigen::Matrix3d axes = Eigen::Matrix3d::Identity();
+  feeler::VertexSet near(8);
+  ContactPatch<Box, double> used(box, incidence, mesh, axes, Vector::Zero(), band, false, near);
+  // Beside the diagonal one triangle is a ghost, the other is not; high above they know of no vertices.
+  for (const Vector& place : {Vector(0.3, -0.3, 0.01 + in_touch), Vector(0.3, -0.3, 0.011), Vector(-0.3, 0.3, 0.01 + in_touch)}) {
+    for (const int triangle : {1, 0, 1}) {
+      const Eigen::Matrix3d corners = mesh.corners(triangle).colwise() - place;
+      const auto closest = feeler::separation(box, corners, {}, 1e-8);
+      feeler::VertexSet others(8);
+      ContactPatch<Box, double> fresh(box, incidence, mesh, axes, Vector::Zero(), band, false, others);
+      PatchRows<double> rows, expected;
+      BOOST_TEST(used.find(triangle, corners, closest, false, rows) == fresh.find(triangle, corners, closest, false, expected));
+      BOOST_TEST(used.is_ghost() == fresh.is_ghost());
+      BOOST_TEST(used.is_ghost() == ((triangle == 1) == (place.x() > 0)));
+      BOOST_TEST(used.is_filler() == fresh.is_filler());
+      BOOST_TEST_REQUIRE(rows.size() == expected.size());
+      for (int i = 0; i < rows.size(); ++i) BOOST_TEST((rows[i].arm == expected[i].arm && rows[i].gap == expected[i].gap));
+      BOOST_TEST(std::vector<int>(near.begin(), near.end()) == std::vector<int>(others.begin(), others.end()), boost::test_tools::per_element());
+    }
+  }
+}
+
+BOOST_AUTO_TEST_CASE(beyond_the_end_of_a_ridge_edges_cross_where_the_mesh_rises_there_and_not_where_it_ends) {
+  // A roof along y with a gable at y = 1 that rises from the end of its ridge by a half; at y = −1 there is nothing.
+  const Mesh mesh = mesh_of({{0, -1, 0}, {0, 1, 0}, {1, 0, -1}, {-1, 0, -1}, {1, 3, 1}, {-1, 3, 1}}, {{0, 2, 1}, {0, 1, 3}, {1, 4, 5}});
+  const double beyond = 5e-6;
+  const feeler::Segment<double> across(Vector(-0.05, 0, 0), Vector(0.05, 0, 0));
+  for (int triangle = 0; triangle < 2; ++triangle) {
+    const auto edges_at = [&](double y) { return find(across, mesh, triangle, at({0, y, 4 * beyond}), true).count(FeaturePair::edge_edge); };
+    BOOST_TEST_CONTEXT("triangle " << triangle) {
+      BOOST_TEST(edges_at(1 + beyond) == 1);
+      BOOST_TEST(edges_at(1 - beyond) == 1);
+      BOOST_TEST(edges_at(-1 + beyond) == 1);
+      BOOST_TEST(edges_at(-1 - beyond) == 0);
+    }
+  }
+}
+
+BOOST_AUTO_TEST_CASE(a_vertex_beside_a_lone_face_by_less_than_a_seam_is_over_it) {
+  const Mesh mesh = mesh_of({{0, -1, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 1, 2}});
+  const double seam = band / 100000;
+  for (const double beside : {0.9 * seam, 1.1 * seam}) {
+    const feeler::Segment<double> tool(Vector(-beside, 0, in_touch), Vector(0.01, 0, in_touch));
+    int over = 0;
+    for (const auto& row : find(tool, mesh, 0, {}).rows) over += row.kind == FeaturePair::vertex_face && row.arm == tool.vertex(0) ? 1 : 0;
+    BOOST_TEST(over == (beside < seam ? 1 : 0));
+  }
+}
+
+BOOST_AUTO_TEST_CASE(a_contact_without_a_gap_outlasts_a_slide_by_rounding) {
+  const Box box(Vector(0.03, 0.02, 0.01));
+  const Eigen::Quaterniond on_its_corner = Eigen::Quaterniond::FromTwoVectors(Vector(-0.03, -0.02, -0.01), -Vector::UnitZ());
+  const Found found = find(box, floor(), 0, at({0.5, -0.5, Vector(0.03, 0.02, 0.01).norm()}, on_its_corner));
+  const Found on_spike = find(box, spike(), 0, at({0, 0, Vector(0.03, 0.02, 0.01).norm()}, on_its_corner), true);
+  BOOST_TEST(!found.rows.empty());
+  BOOST_TEST(!on_spike.rows.empty());
+  feeler::Vector6<double> slide = feeler::Vector6<double>::Zero();
+  slide[0] = 1e-13;
+  for (const auto& rows : {found.rows, on_spike.rows})
+    for (const auto& row : rows) BOOST_TEST(row.outlasts(slide));
+}
+
+BOOST_AUTO_TEST_CASE(of_shapes_that_touch_the_vertices_in_the_band_alone_are_near) {
+  const Box box(Vector(0.03, 0.02, 0.01));
+  const Mesh mesh = floor();
+  for (const double turned : {0.0, std::acos(-1.0)}) {  // upside down the first of its vertices is on top
+    const Eigen::Matrix3d axes = turn(turned, Vector::UnitX()).toRotationMatrix();
+    const Eigen::Matrix3d corners = axes.transpose() * (mesh.corners(0).colwise() - Vector(0.5, -0.5, 0.01));
+    const auto closest = feeler::separation(box, corners, {}, 1e-8);
+    BOOST_TEST_REQUIRE(closest.is_touching);
+    const feeler::FeatureIncidence incidence = feeler::incidence_of(box);
+    feeler::VertexSet near(8);
+    ContactPatch<Box, double> patch(box, incidence, mesh, axes, Vector::Zero(), band, false, near);
+    PatchRows<double> rows;
+    BOOST_TEST(patch.find(0, corners, closest, false, rows));
+    BOOST_TEST(near.size() == 4);
+    for (const int vertex : near) BOOST_TEST((axes * box.vertex(vertex)).z() < 0);
+  }
+}
+
+BOOST_AUTO_TEST_CASE(no_plane_is_assumed_that_the_tool_is_below) {
+  // It has sunk into the slope on the right of a valley, below the plane of that on the left.
+  const Mesh mesh = mesh_of({{0, -1, 0}, {0, 1, 0}, {1, 0, 0.5}, {-1, 0, 0.5}}, {{0, 2, 1}, {0, 1, 3}});  // z = |x| / 2
+  const double half = 1e-4;
+  const Box box(Vector::Constant(half));
+  for (const double sunk : {3.5e-4, 3.9e-4}) {
+    const Found found = find(box, mesh, 1, at({3e-4, 0, half - sunk}), false, Vector::Zero(), true);
+    BOOST_TEST(found.is_ghost);
+    for (const auto& row : found.rows) BOOST_TEST(!row.is_assumed);
   }
 }
 
