@@ -323,4 +323,47 @@ BOOST_AUTO_TEST_CASE(points_without_a_hull_are_refused_with_a_sentence) {
   }
 }
 
+BOOST_AUTO_TEST_CASE(the_highest_vertex_found_from_another_one_takes_its_place) {
+  const Polytope hull = Polytope::hull_of(rows(ellipsoid(200, Vector(1, 2, 0.5), 6)));
+  std::mt19937 bits(23);
+  int vertex = 0;
+  for (int i = 0; i < 500; ++i) {
+    const Vector direction = random_vector(bits);
+    const double highest = feeler::highest_along(hull, direction, vertex);
+    BOOST_TEST(std::abs(highest - feeler::highest_along(hull, direction)) < 1e-15);
+    BOOST_TEST(std::abs(direction.dot(hull.vertex(vertex)) - highest) < 1e-15);
+  }
+}
+
+BOOST_AUTO_TEST_CASE(of_edges_that_are_parallel_to_rounding_the_longest_tells_their_direction) {
+  // The short edge above one of the base is turned by a bit of one coordinate.
+  const std::vector<Vector> frustum{{0, 0, 0},       {1, 0, 0},    {1, 1, 0}, {0, 1, 0}, {0.1, 0.01, 1}, {0.101, std::nextafter(0.01, 1.0), 1},
+                                    {0.101, 0.2, 1}, {0.1, 0.2, 1}};
+  const Polytope hull = Polytope::hull_of(rows(frustum));
+  BOOST_TEST(hull.vertex_count() == 8);
+  BOOST_TEST(hull.face_count() == 6);
+  int along_x = 0;
+  for (int i = 0; i < hull.edge_direction_count(); ++i) {
+    if (hull.edge_direction(i).cross(Vector::UnitX()).norm() > 1e-9) continue;
+    ++along_x;
+    BOOST_TEST(std::abs(hull.edge_direction(i).x()) == 1);
+    BOOST_TEST(hull.edge_direction(i).tail<2>().isZero(0));
+  }
+  BOOST_TEST(along_x == 1);
+}
+
+BOOST_AUTO_TEST_CASE(points_thinner_than_64_roundings_of_their_size_have_no_hull) {
+  const double size = 2 * std::sqrt(2.0) + 1, rounding = std::numeric_limits<double>::epsilon() * size;
+  for (const double share : {20.0, 50.0, 80.0, 300.0}) {
+    const std::vector<Vector> sheet{{-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}, {0.1, 0.2, share * rounding}};
+    const std::string sentence = refusal_of(sheet);
+    if (share < 64) BOOST_TEST(contains(sentence, "in one plane"));
+    else BOOST_TEST(sentence == "accepted");
+  }
+  for (const double share : {20.0, 40.0}) {  // of a line 2 m long
+    const double wide = share * std::numeric_limits<double>::epsilon() * 3;
+    BOOST_TEST(contains(refusal_of({{-1, 0, 0}, {1, 0, 0}, {0.1, wide, 0}, {0.2, 0, wide}, {0.3, wide, wide}}), "on one line"));
+  }
+}
+
 BOOST_AUTO_TEST_SUITE_END()
