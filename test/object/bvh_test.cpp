@@ -226,6 +226,39 @@ BOOST_AUTO_TEST_CASE(random_triangles_of_mixed_sizes_are_each_in_one_leaf) {
   }
 }
 
+BOOST_AUTO_TEST_CASE(the_leaves_under_a_child_are_those_from_its_first_to_its_last) {
+  std::mt19937 bits(6);
+  std::vector<Eigen::Matrix3d> triangles;
+  for (int i = 0; i < 1000; ++i) {
+    Eigen::Matrix3d t;
+    for (int k = 0; k < 3; ++k) t.col(k) = Eigen::Vector3d(unit(bits), unit(bits), unit(bits));
+    triangles.push_back(t);
+  }
+  for (const auto& mesh : {soup(triangles), terrain<double>(20), soup({Eigen::Matrix3d::Identity()})}) {
+    const auto& bvh = mesh.bvh();
+    for (const BvhNode& node : bvh.nodes()) {
+      for (const std::int32_t child : node.child) {
+        if (child == 0) continue;
+        std::vector<std::int32_t> found, waiting{child};
+        while (!waiting.empty()) {
+          const std::int32_t entry = waiting.back();
+          waiting.pop_back();
+          if (BvhNode::is_leaf(entry)) {
+            found.push_back(~entry);
+            continue;
+          }
+          for (const std::int32_t below : bvh.nodes()[std::size_t(entry)].child)
+            if (below != 0) waiting.push_back(below);
+        }
+        std::sort(found.begin(), found.end());
+        const auto under = bvh.leaves_under(child);
+        BOOST_TEST_REQUIRE(under[1] - under[0] == std::int32_t(found.size()));
+        for (std::size_t i = 0; i < found.size(); ++i) BOOST_TEST_REQUIRE(found[i] == under[0] + std::int32_t(i));
+      }
+    }
+  }
+}
+
 BOOST_AUTO_TEST_CASE(one_triangle_is_one_leaf) {
   const auto mesh = soup({Eigen::Matrix3d::Identity()});
   BOOST_TEST(mesh.bvh().nodes().size() == 1U);
