@@ -86,4 +86,32 @@ BOOST_AUTO_TEST_CASE(a_box_over_a_triangle_of_kilometres_is_as_far_away_as_it_is
   }
 }
 
+BOOST_AUTO_TEST_CASE(a_query_of_a_triangle_of_kilometres_names_the_features_that_are_nearest) {
+  const Box<double> tool(Vector(0.01, 0.02, 0.03));
+  const Vector down = tool.vertex(0).normalized();  // towards its lowest corner
+  const Vector u = down.unitOrthogonal(), v = down.cross(u);
+  for (const double size : {10.0, 500.0, 20000.0}) {
+    const Vector below = tool.vertex(0) + 1e-5 * down;
+    Eigen::Matrix3d inside, edge;
+    inside << below - size * u - size * v, below + size * u - size * v, below + size * v;
+    edge << below - size * u, below + size * u, below + size * down;  // across the corner
+    const auto on_face = gjk(tool, inside, {}, 1e-8), on_edge = gjk(tool, edge, {}, 1e-8);
+    const auto corners_of = [](const auto& closest) {
+      unsigned corners = 0;
+      for (std::size_t i = 0; i < std::size_t(closest.features.size); ++i) corners |= 1U << unsigned(closest.features.corners[i]);
+      return corners;
+    };
+    BOOST_TEST_CONTEXT("size " << size) {
+      BOOST_TEST(std::abs(on_face.distance - 1e-5) < 2e-11);
+      BOOST_TEST(std::abs(on_edge.distance - 1e-5) < 2e-11);
+      BOOST_TEST(corners_of(on_face) == 7U);
+      BOOST_TEST(corners_of(on_edge) == 3U);
+      for (const auto* closest : {&on_face, &on_edge}) {
+        for (std::size_t i = 0; i < std::size_t(closest->features.size); ++i) BOOST_TEST(closest->features.tool_vertices[i] == 0);
+        BOOST_TEST((closest->normal + down).norm() < 1e-5);  // the edge is where rounding puts it
+      }
+    }
+  }
+}
+
 BOOST_AUTO_TEST_SUITE_END()
