@@ -148,4 +148,22 @@ BOOST_AUTO_TEST_CASE(apart_touching_or_overlapping_the_distance_is_proved_by_its
   }
 }
 
+BOOST_AUTO_TEST_CASE(an_overlap_that_is_accepted_keeps_the_normal_of_the_face) {
+  // A box that leans by 20 mrad stands on an edge 1 µm deep in a floor that ends 0.1 µm inside of it: beside it they overlap by less.
+  const feeler::Box<double> box(Vector(0.03, 0.02, 0.01));
+  const Eigen::Matrix3d lean = Eigen::AngleAxisd(0.02, Vector::UnitX()).toRotationMatrix();
+  const Vector edge = lean * Vector(0, -0.02, -0.01);
+  Eigen::Matrix3d floor;
+  floor << -0.02, 0.02, 0, edge.y() + 1e-7, edge.y() + 1e-7, -0.03, 0, 0, 0;
+  floor.row(2).setConstant(edge.z() + 1e-6);
+  const Eigen::Matrix3d corners = lean.transpose() * floor;
+  feeler::ClosestPoints<double> closest;
+  closest.is_touching = true;
+  const auto accepted = feeler::separation_of_touching(box, corners, closest, 1e-5), best = feeler::separation_of_touching(box, corners, closest);
+  BOOST_TEST((accepted.normal - lean.transpose() * Vector::UnitZ()).norm() < 1e-12);
+  BOOST_TEST(std::abs(accepted.distance + 1e-6) < 1e-15);
+  BOOST_TEST(best.distance > -2e-7);
+  BOOST_TEST(best.distance < 0);
+}
+
 BOOST_AUTO_TEST_SUITE_END()
