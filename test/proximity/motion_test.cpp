@@ -314,4 +314,35 @@ BOOST_AUTO_TEST_CASE(a_full_cache_gives_up_the_plane_with_the_fewest_hits_and_ke
   BOOST_TEST(cache.size() == 0);
 }
 
+BOOST_AUTO_TEST_CASE(a_cleared_cache_knows_nothing_of_the_tool_that_it_was_of) {
+  std::mt19937 bits(10);
+  for (int i = 0; i < 100; ++i) {
+    const RandomMotion<feeler::Box<double>> random(bits, random_box(bits));
+    const auto moving = random.moving();
+    feeler::PlaneCache<double> cache;
+    cache.begin(moving, moving.frame_at_start());
+    cache.add(Vector::UnitZ(), moving, moving.frame_at_start(), moving.frame_at(1), 0);
+    cache.with_tool().add(Vector::UnitX(), moving, moving.frame_at_start(), moving.frame_at(1), 0);
+    feeler::WitnessFeatures features;
+    features.size = 1;
+    cache.features().remember(3, features);
+    cache.end(moving, moving.frame_at(1), 0);
+    cache.clear();
+    BOOST_TEST(cache.size() == 0);
+    BOOST_TEST(cache.with_tool().size() == 0);
+    BOOST_TEST(cache.features().recall_or_guess(3).size == 0);
+    // Another tool, which begins where that one ended and is turned alike.
+    const feeler::Box<double> other = random_box(bits);
+    const feeler::MovingTool<feeler::Box<double>> next(other, random.reference, feeler::radius_about(other, random.reference), moving.pose_at(1),
+                                                       random.motion);
+    cache.begin(next, next.frame_at_start());
+    cache.end(next, next.frame_at(1), 0);
+    const double size = next.radius() + next.length();
+    for (int axis = 0; axis < 3; ++axis) {
+      BOOST_TEST(std::abs(cache.box().lower(axis) - least_height(Vector::Unit(axis), next, 1)) <= 1e-14 * size);
+      BOOST_TEST(std::abs(cache.box().upper(axis) + least_height(-Vector::Unit(axis), next, 1)) <= 1e-14 * size);
+    }
+  }
+}
+
 BOOST_AUTO_TEST_SUITE_END()
