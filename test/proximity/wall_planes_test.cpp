@@ -3,6 +3,7 @@
 #include <boost/test/unit_test.hpp>
 
 #include <array>
+#include <cmath>
 #include <limits>
 #include <memory>
 #include <random>
@@ -141,7 +142,7 @@ BOOST_AUTO_TEST_CASE(a_wall_that_the_tool_sinks_into_is_parted_until_it_comes_ne
     pose.translation = Vector(0.3 + 0.2 * fraction(bits), 0.3 + 0.2 * fraction(bits), 0.2 - lowest);
     const feeler::MovingTool<feeler::Box<double>> moving(tool, Vector::Zero(), feeler::radius_about(tool, Vector(Vector::Zero())), pose,
                                                          {down, Vector::Zero()});
-    const auto start = moving.frame_at_start(), end = moving.frame_at(1);
+    const auto start = moving.frame_at_start(), end = moving.frame_at(i % 2 == 0 ? 1.0 : 0.4);
     planes->begin(mesh, 0, moving, start, true);
     planes->end(end);
     BOOST_TEST(!planes->parts_wall(mesh, 0, moving, start, end, clearance));
@@ -164,6 +165,93 @@ BOOST_AUTO_TEST_CASE(a_wall_that_the_tool_sinks_into_is_parted_until_it_comes_ne
     BOOST_TEST(planes->note_question(mesh, 0, moving, start));
     BOOST_TEST(!planes->note_question(mesh, 0, moving, start));
   }
+}
+
+BOOST_AUTO_TEST_CASE(a_wall_that_is_as_rough_as_rounding_is_parted_from_what_keeps_off_all_of_it) {
+  std::mt19937 bits(10);
+  feeler::Points<double> vertices;
+  feeler::Triangles triangles;
+  feeler::scenes::mesh_height_field({-0.5, 0.5, -0.5, 0.5, 8, 8}, [&](double, double) { return 3e-9 * unit(bits); }, vertices, triangles);
+  const TriangleMesh<double> mesh(vertices, triangles);
+  BOOST_REQUIRE(mesh.walls().count() == 1);
+  const Vector normal = mesh.normal(mesh.walls()[0].triangle);
+  const double top = (vertices * normal).maxCoeff();
+  const feeler::Box<double> tool(Vector(0.01, 0.02, 0.03));
+  feeler::Clearance<double> clearance;
+  clearance.kept = 1e-9;
+  int parted = 0, near = 0;
+  for (int i = 0; i < 400; ++i) {
+    const feeler::Pose<double> pose{{0.1 * unit(bits), 0.1 * unit(bits), 0.03 + std::pow(10, -9 + i / 180.0)},
+                                    feeler::Quaternion<double>::Identity()};
+    const feeler::MovingTool<feeler::Box<double>> moving(tool, Vector::Zero(), feeler::radius_about(tool, Vector(Vector::Zero())), pose, {});
+    const auto start = moving.frame_at_start(), end = moving.frame_at(1);
+    const auto planes = std::make_unique<feeler::WallPlanes<double>>();
+    planes->clear();
+    planes->begin(mesh, 0, moving, start, false);
+    planes->end(end);
+    const bool is_parted = planes->parts_wall(mesh, 0, moving, start, end, clearance);
+    const double room = normal.dot(pose.translation) + moving.lowest(normal, start) - top;
+    if (is_parted) BOOST_TEST(room >= clearance.kept - 1e-15);
+    ++(is_parted ? parted : near);
+  }
+  BOOST_TEST(parted > 50);
+  BOOST_TEST(near > 50);
+}
+
+BOOST_AUTO_TEST_CASE(a_tool_on_both_sides_of_a_wall_is_never_parted_from_it) {
+  feeler::Points<double> vertices;
+  feeler::Triangles triangles;
+  feeler::scenes::mesh_height_field({0, 1, 0, 1, 4, 4}, [](double, double) { return 0.0; }, vertices, triangles);
+  const TriangleMesh<double> mesh(vertices, triangles);
+  const feeler::Box<double> tool(Vector(0.01, 0.02, 0.03));
+  for (const double height : {0.0, 0.02, -0.02, 0.03 - 1e-6}) {
+    const feeler::MovingTool<feeler::Box<double>> moving(tool, Vector::Zero(), feeler::radius_about(tool, Vector(Vector::Zero())),
+                                                         {Vector(0.3, 0.3, height), feeler::Quaternion<double>::Identity()},
+                                                         {Vector(0, 0, 1e-4), Vector::Zero()});
+    const auto start = moving.frame_at_start(), end = moving.frame_at(1);
+    const auto planes = std::make_unique<feeler::WallPlanes<double>>();
+    planes->clear();
+    planes->begin(mesh, 0, moving, start, true);
+    planes->end(end);
+    const feeler::Clearance<double> clearance;
+    BOOST_TEST(!planes->parts_wall(mesh, 0, moving, start, end, clearance));
+    BOOST_TEST(planes->parts_wall_until(mesh, 0, moving, start, end, clearance) < 0);
+  }
+}
+
+BOOST_AUTO_TEST_CASE(a_plane_that_parted_a_triangle_from_the_front_parts_nothing_once_it_is_seen_from_behind) {
+  // Plates a metre apart, each a wall, at any height; more than there is room for planes.
+  std::mt19937 bits(11);
+  constexpr int plates = 3000;
+  feeler::Points<double> vertices(4 * plates, 3);
+  feeler::Triangles triangles(2 * plates, 3);
+  for (int i = 0; i < plates; ++i) {
+    const double z = i == 0 ? -0.5 : 0.5 * unit(bits);
+    vertices.middleRows(4 * i, 4) << i, 0, z, i + 0.5, 0, z, i + 0.5, 0.5, z, i, 0.5, z;
+    triangles.row(2 * i) << 4 * i, 4 * i + 1, 4 * i + 2;
+    triangles.row(2 * i + 1) << 4 * i, 4 * i + 2, 4 * i + 3;
+  }
+  const TriangleMesh<double> mesh(vertices, triangles);
+  BOOST_TEST_REQUIRE(mesh.walls().count() == plates);
+  const feeler::Box<double> tool(Vector(0.01, 0.02, 0.03));
+  const auto planes = std::make_unique<feeler::WallPlanes<double>>();
+  planes->clear();
+  const feeler::Clearance<double> clearance;
+  const auto parts_at = [&](double height) {  // of the tool's middle above the first plate
+    const feeler::MovingTool<feeler::Box<double>> standing(tool, Vector::Zero(), feeler::radius_about(tool, Vector(Vector::Zero())),
+                                                           {Vector(0.2, 0.1, height - 0.5), feeler::Quaternion<double>::Identity()}, {});
+    const auto start = standing.frame_at_start(), end = standing.frame_at(1);
+    planes->begin(mesh, 0, standing, start, true);
+    planes->end(end);
+    const bool parts = planes->parts_triangle(mesh, 0, standing, start, end, clearance);
+    for (int wall = 0; wall < plates; ++wall)  // take its place
+      if (wall != mesh.walls().of_triangle(0)) planes->parts_wall(mesh, wall, standing, start, end, clearance);
+    return parts;
+  };
+  BOOST_TEST(parts_at(0.04));
+  BOOST_TEST(!parts_at(-0.02));  // it is astride, and farther out behind the plate
+  BOOST_TEST(parts_at(-0.04));
+  BOOST_TEST(!parts_at(0.02));
 }
 
 BOOST_AUTO_TEST_SUITE_END()
