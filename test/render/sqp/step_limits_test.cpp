@@ -2,6 +2,8 @@
 
 #include <boost/test/unit_test.hpp>
 
+#include <limits>
+
 BOOST_AUTO_TEST_SUITE(step_limits)
 
 using Limits = feeler::StepLimits<double>;
@@ -72,6 +74,24 @@ BOOST_AUTO_TEST_CASE(in_flight_only_the_work_of_the_certificate_limits_a_motion)
   BOOST_TEST(limits.longest(false) == 1);
   limits.widen(little);
   BOOST_TEST(limits.longest(true) == 6);
+}
+
+BOOST_AUTO_TEST_CASE(a_flight_that_there_was_no_work_for_at_all_is_a_short_one_in_the_next_tick) {
+  Limits limits = with_radius(1);
+  limits.shorten(true, 0);
+  limits.carry_over();
+  BOOST_TEST(limits.longest(true) == 1 / 4000.0);
+}
+
+BOOST_AUTO_TEST_CASE(after_a_reset_nothing_is_left_of_a_long_slide) {
+  Limits limits = with_radius(1);
+  for (int i = 0; i < 3; ++i) limits.widen(little);
+  limits.shorten(true, 3);
+  limits.reset(1);
+  BOOST_TEST(limits.trust() == 1);
+  BOOST_TEST(limits.longest(true) == std::numeric_limits<double>::infinity());
+  limits.widen(more);
+  BOOST_TEST(limits.trust() == 1);
 }
 
 BOOST_AUTO_TEST_SUITE_END()
