@@ -13,23 +13,24 @@ using feeler::test::WideReal;
 using feeler::test::WideTool;
 using feeler::test::WideVector;
 
-BOOST_AUTO_TEST_CASE(what_a_plane_parts_stays_below_it_on_the_whole_way_wherever_the_tool_may_come_near) {
-  constexpr unsigned seed = 11;
+namespace {
+/// Planes of random tools, and triangles about a point just below them in the middle of a motion or so.
+template <class MakeTool>
+void check_parted(unsigned seed, const MakeTool& make_tool) {
   BOOST_TEST_MESSAGE("seed " << seed);
   std::mt19937 bits(seed);
   constexpr double kept = 1e-7;
   int parted = 0, near = 0;
   for (int i = 0; i < 3000; ++i) {
-    const RandomMotion<feeler::Box<double>> random(bits, random_box(bits));
+    const RandomMotion<decltype(make_tool(bits))> random(bits, make_tool(bits));
     const auto moving = random.moving();
-    const double until = i % 3 == 0 ? 1.0 : fraction(bits);
+    const double swept = feeler::swept_radius(random.tool), until = i % 3 == 0 ? 1.0 : fraction(bits);
     const auto start = moving.frame_at(0), end = moving.frame_at(until);
     const Vector normal = i % 2 == 0 ? Vector(Vector::UnitZ()) : random_direction(bits);
     feeler::ToolPlanes<double> planes;
     planes.add(normal, moving, start, end, kept);
-    // A triangle about a point just below the plane, in the middle of the motion or so.
     const auto middle = moving.frame_at(until * fraction(bits));
-    const double height = moving.lowest_in_tool(normal);
+    const double height = moving.lowest_in_tool(normal) - swept;
     const Vector across = random_vector(bits);
     const Vector below = (height - kept - magnitude(bits, -9, -2)) * normal + 0.5 * moving.radius() * (across - normal.dot(across) * normal);
     const Vector centre = middle.rotation * below + middle.shift;
@@ -40,12 +41,13 @@ BOOST_AUTO_TEST_CASE(what_a_plane_parts_stays_below_it_on_the_whole_way_wherever
     for (int k = 0; k <= 100; ++k) {
       const auto pose = random.wide().pose_at(WideReal(until) * WideReal(k) / 100);
       const WideVector up = pose.rotation * normal.cast<WideReal>();
-      const WideVector reference = pose.translation + pose.rotation * random.reference.cast<WideReal>() - random.wide().start;
+      const WideVector reference = pose.translation + pose.rotation * random.reference.template cast<WideReal>() - random.wide().start;
       WideReal lowest = std::numeric_limits<WideReal>::infinity();
       for (const WideVector& v : tool.vertices) lowest = std::min(lowest, up.dot(pose.translation + pose.rotation * v - random.wide().start));
+      lowest -= tool.radius;
       for (int c = 0; c < 3; ++c) {
         const WideVector corner = corners.col(c).cast<WideReal>();
-        if ((corner - reference).norm() > WideReal(moving.radius() + kept)) continue;
+        if ((corner - reference).norm() > WideReal(moving.radius() + swept + kept)) continue;
         ++near;
         BOOST_TEST(lowest - up.dot(corner) >= WideReal(kept) - 1e-14L);
       }
@@ -53,6 +55,12 @@ BOOST_AUTO_TEST_CASE(what_a_plane_parts_stays_below_it_on_the_whole_way_wherever
   }
   BOOST_TEST(parted > 300);
   BOOST_TEST(near > 10000);
+}
+}  // namespace
+
+BOOST_AUTO_TEST_CASE(what_a_plane_parts_stays_below_it_on_the_whole_way_wherever_the_tool_may_come_near) {
+  check_parted(11, random_box);
+  check_parted(12, random_rounded_box);
 }
 
 BOOST_AUTO_TEST_CASE(a_face_that_turns_parts_what_a_plane_of_the_world_does_not) {
