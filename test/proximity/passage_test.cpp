@@ -8,6 +8,7 @@
 #include <string>
 
 #include "feeler/tool/point.hpp"
+#include "feeler/tool/sphere_swept.hpp"
 #include "support/random_motions.hpp"
 #include "support/sanitized.hpp"
 
@@ -442,6 +443,47 @@ BOOST_AUTO_TEST_CASE(what_rounding_of_poses_takes_is_not_halved_by_a_motion_that
       BOOST_TEST(gap >= rounding - 1000 * clearance.allowance / 16);
     }
     BOOST_TEST(clearance.required(rounding / 4) == rounding / 8);  // a fit tighter than that is a fit all the same
+  }
+}
+
+BOOST_AUTO_TEST_CASE(a_plane_that_holds_is_said_to_turn_with_the_tool_or_to_stand) {
+  // A box 2 µm above a floor turns about its lower edge by 1 mrad: its face parts the two, and as it is at the end no plane that stands does.
+  const feeler::Box<double> box({0.01, 0.01, 0.01});
+  const Vector reference(-0.01, 0, -0.01);
+  const Clearance<double> clearance;
+  const feeler::MovingTool<feeler::Box<double>> turning(box, reference, feeler::radius_about(box, reference),
+                                                        {Vector(0, 0, 2e-6), feeler::Quaternion<double>::Identity()},
+                                                        {Vector::Zero(), Vector(0, -1e-3, 0)});
+  Eigen::Matrix3d floor;
+  floor << 0.001, 0.004, 0.002, 0, 0, 0.002, -2e-6, -2e-6, -2e-6;
+  const auto start = turning.frame_at(0), end = turning.frame_at(1);
+  const Vector face = end.rotation * Vector::UnitZ();
+  const double slack = turning.lowest(face, end) - (face.transpose() * floor).maxCoeff();
+  const auto with_tool = feeler::detail::held_fraction(turning, floor, {face, slack}, end, start, 1e-7, false);
+  BOOST_TEST(with_tool.fraction == 1);
+  BOOST_TEST(with_tool.turns);
+  // A capsule spins about its axis over the floor: the plane below it stands, and one that spins with it would be in the floor.
+  const feeler::Capsule<double> capsule({{-0.02, 0, 0}, {0.03, 0, 0}}, 0.01);
+  const feeler::MovingTool<feeler::Capsule<double>> spinning(capsule, Vector::Zero(), feeler::radius_about(capsule, Vector(Vector::Zero())), {},
+                                                             {Vector::Zero(), Vector(1, 0, 0)});
+  Eigen::Matrix3d wide;
+  wide << -9, 9, 0.1, -9, -9, 9, -0.01 - 1e-6, -0.01 - 1e-6, -0.01 - 1e-6;
+  const auto standing =
+      feeler::detail::held_fraction(spinning, wide, {Vector::UnitZ(), 1e-6}, spinning.frame_at(0), spinning.frame_at(1), 1e-7, true);
+  BOOST_TEST(standing.fraction == 1);
+  BOOST_TEST(!standing.turns);
+}
+
+BOOST_AUTO_TEST_CASE(lengths_of_a_clearance_are_apart_by_far_and_as_large_as_the_scene) {
+  for (const double size : {1e-3, 1.0, 1e3}) {
+    const Clearance<double> clearance(1e-6 * size, 4e-4 * size);
+    BOOST_TEST(clearance.kept == 1e-7 * size, boost::test_tools::tolerance(1e-12));
+    BOOST_TEST(clearance.negligible() >= 2 * clearance.allowance);
+    BOOST_TEST(clearance.none() > 5 * clearance.negligible());
+    BOOST_TEST(clearance.none() < clearance.kept / 100);
+    BOOST_TEST(clearance.touching < clearance.kept);
+    BOOST_TEST(clearance.probe == 1e-4 * size, boost::test_tools::tolerance(1e-12));  // a quarter of the way
+    BOOST_TEST(clearance.resolution == 2.5e-7 * size, boost::test_tools::tolerance(1e-12));
   }
 }
 
