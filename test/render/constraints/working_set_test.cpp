@@ -155,4 +155,26 @@ BOOST_AUTO_TEST_CASE(a_pair_that_was_not_measured_says_nothing_of_the_clearance)
   BOOST_TEST(set.has_no_clearance(1e-10));
 }
 
+BOOST_AUTO_TEST_CASE(the_rim_of_a_wall_is_wanted_only_as_long_as_motion_is_left) {
+  Set set;
+  set.add(0, 1, Corners::Zero()).wants_rim = true;
+  set.age(1, 0, true);
+  BOOST_TEST(set[0].wants_rim);
+  set.age(1, 0, false);
+  BOOST_TEST(!set[0].wants_rim);
+}
+
+BOOST_AUTO_TEST_CASE(a_pair_that_has_not_held_the_tool_for_more_than_a_hundred_ticks_is_spare) {
+  Set set;
+  set.add(0, 1, Corners::Zero()).state = feeler::PairState::has_rows;
+  for (int round = 0; round < 2; ++round) {
+    for (int tick = 0; tick <= 100; ++tick) {
+      BOOST_TEST(!set[0].is_spare());
+      set.age(4e-6, 0, false);
+    }
+    BOOST_TEST(set[0].is_spare());
+    set[0].note_use();
+  }
+}
+
 BOOST_AUTO_TEST_SUITE_END()
