@@ -291,4 +291,145 @@ BOOST_AUTO_TEST_CASE(without_clearance_spare_rows_leave_the_tool_to_others_that_
   }
 }
 
+BOOST_AUTO_TEST_CASE(in_another_unit_of_length_the_solver_finds_the_same_step) {
+  // Between two walls that leave less than the margin, beside a third one that the hand is pushed into.
+  constexpr double margin = 1e-6;
+  const Twist<double> graphic_from_haptic{{2e-4, -1e-4, 1e-3}, {1e-3, 2e-3, -1e-3}};
+  const auto solve = [&](StepProblem<DualActiveSet<double>, 8>& problem) {
+    ContactRow<double> floor, ceiling, wall;
+    ceiling.normal = -floor.normal;
+    wall.normal = Eigen::Vector3d::UnitX();
+    floor.gap = 5e-7;
+    ceiling.gap = 1e-7;
+    wall.gap = 3e-6;
+    floor.arm = {0.01, 0.02, -0.01};
+    ceiling.arm = {0.01, 0.02, 0.01};
+    wall.arm = {-0.01, 0.005, 0.001};
+    BOOST_TEST_REQUIRE(problem.add(floor, {1.5e-6}));
+    BOOST_TEST_REQUIRE(problem.add(ceiling, {1.5e-6}));
+    BOOST_TEST_REQUIRE(problem.add(wall, {0.0}));
+    problem.solve_gauss_newton(Metric<double>(), graphic_from_haptic, margin);
+    BOOST_TEST(problem.is_optimal());
+  };
+  StepProblem<DualActiveSet<double>, 8> in_metres;
+  solve(in_metres);
+  BOOST_TEST(in_metres.relaxation() == 7e-7, boost::test_tools::tolerance(1e-4));
+  for (const double unit : {0x1p-12, 0x1p-6}) {
+    StepProblem<DualActiveSet<double>, 8> problem(unit);
+    solve(problem);
+    BOOST_TEST_CONTEXT("unit " << unit) {
+      BOOST_TEST((problem.solution().step - in_metres.solution().step).norm() < 1e-9);
+      BOOST_TEST(std::abs(problem.relaxation() - in_metres.relaxation()) < 1e-10);
+      BOOST_TEST(problem.worth_of_margin() == in_metres.worth_of_margin(), boost::test_tools::tolerance(1e-3));
+      const auto force_of = [](const auto& solved) {
+        Vector6<double> force = Vector6<double>::Zero();
+        for (const auto& active : solved.solution().active) force += active.multiplier * solved.row(active.row).gradient();
+        return force;
+      };
+      BOOST_TEST((force_of(problem) - force_of(in_metres)).norm() < 1e-8);
+    }
+  }
+}
+
+BOOST_AUTO_TEST_CASE(what_is_told_of_a_step_is_what_its_rows_leave) {
+  using Corner = StepProblem<DualActiveSet<double>, 8>;
+  // A floor 1 µm below and a wall 5 µm beside; the hand is far below the floor, and 2 µm towards the wall or far behind it.
+  ContactRow<double> floor, wall;
+  floor.gap = 1e-6;
+  floor.room = 1e-3;
+  wall.normal = Eigen::Vector3d::UnitX();
+  wall.gap = 5e-6;
+  wall.room = 1e-6;
+  wall.is_assumed = true;
+  Corner problem;
+  BOOST_TEST_REQUIRE(problem.add(floor, {0.0}));
+  BOOST_TEST_REQUIRE(problem.add(wall, {0.0}));
+  const auto solve = [&](double x) { problem.solve_gauss_newton(Metric<double>(), {{x, 0, 1e-3}, Eigen::Vector3d::Zero()}, 0.0); };
+  solve(2e-6);
+  BOOST_TEST(std::abs(problem.gap_after(0)) < 1e-12);
+  BOOST_TEST(problem.gap_after(1) == 3e-6, boost::test_tools::tolerance(1e-6));
+  BOOST_TEST(std::abs(problem.room_after(0)) < 1e-12);
+  BOOST_TEST(problem.room_after(1) == 3e-6, boost::test_tools::tolerance(1e-6));
+  BOOST_TEST(!problem.rests_on_assumption());
+  BOOST_TEST(problem.keeps_features());
+  solve(1e-3);
+  BOOST_TEST(problem.rests_on_assumption());
+  BOOST_TEST(!problem.keeps_features());  // the wall is left by the way down alone
+  const auto down = [](double way) { return Twist<double>{{0, 0, -way}, Eigen::Vector3d::Zero()}; };
+  BOOST_TEST(problem.leaves_gaps(down(0.5e-6), 0.4e-6));
+  BOOST_TEST(!problem.leaves_gaps(down(0.5e-6), 0.6e-6));
+}
+
+BOOST_AUTO_TEST_CASE(the_margin_is_won_back_without_a_force_and_is_worth_what_is_won_of_it) {
+  using Corner = StepProblem<DualActiveSet<double>, 8>;
+  constexpr double margin = 1e-6;
+  ContactRow<double> floor, ceiling;
+  floor.gap = 3e-7;
+  Corner at_rest;
+  BOOST_TEST_REQUIRE(at_rest.add(floor, {0.0}));
+  BOOST_TEST(at_rest.solve_gauss_newton(Metric<double>(), {}, margin)[2] == 7e-7, boost::test_tools::tolerance(1e-6));
+  BOOST_TEST(!at_rest.is_relaxed());
+  // All of the margin above a floor that is touched; a fifth of it between walls of which the nearer comes to have 0.3 µm, of 0.1.
+  const Twist<double> pull{{0, 0, 1e-3}, Eigen::Vector3d::Zero()};
+  Corner one, two;
+  floor.gap = 0;
+  BOOST_TEST_REQUIRE(one.add(floor, {0.0}));
+  one.solve_gauss_newton(Metric<double>(), pull, margin);
+  floor.gap = 5e-7;
+  ceiling.normal = -floor.normal;
+  ceiling.gap = 1e-7;
+  BOOST_TEST_REQUIRE(two.add(floor, {1.5e-6}));
+  BOOST_TEST_REQUIRE(two.add(ceiling, {1.5e-6}));
+  two.solve_gauss_newton(Metric<double>(), pull, margin);
+  BOOST_TEST(two.worth_of_margin() == 0.2 * one.worth_of_margin(), boost::test_tools::tolerance(1e-3));
+  BOOST_TEST(one.worth_of_margin() > margin * 1e-3);  // more than the force that is in its way
+}
+
+BOOST_AUTO_TEST_CASE(along_turned_axes_the_step_is_the_step_turned) {
+  const Metric<double> along{{1, 0.5, 0.25}, {2e-3, 1e-3, 3e-3}};
+  const Eigen::Quaterniond turn = Eigen::Quaterniond(0.3, 0.5, -0.7, 0.4).normalized();
+  const auto turned_six = [&](const Vector6<double>& v) {
+    Vector6<double> result;
+    result << turn * Eigen::Vector3d(v.head<3>()), turn * Eigen::Vector3d(v.tail<3>());
+    return result;
+  };
+  Matrix6<double> both = Matrix6<double>::Zero();
+  both.topLeftCorner<3, 3>() = both.bottomRightCorner<3, 3>() = turn.toRotationMatrix();
+  const Twist<double> graphic_from_haptic{{-2e-4, 1e-4, 1e-3}, {0.01, -0.02, 0.03}};
+  for (const double falls_off : {0.0, 0.5, 0.98, 0.99, 1.0, 3.0}) {  // less is the Hessian along x than the metric's; an eightieth has to be left
+    BentRow row;
+    if (falls_off < 0.6) row.arm = {0.01, -0.02, 0.005};
+    row.bend(0, 0) = falls_off / (0.25 * 1e-3);  // by the force of the floor where that has no arm
+    BentRow there = row;
+    there.normal = turn * row.normal;
+    there.arm = turn * row.arm;
+    there.bend = both * row.bend * both.transpose();
+    Problem problem, turned;
+    BOOST_TEST_REQUIRE(problem.add(row, {0.0}));
+    BOOST_TEST_REQUIRE(turned.add(there, {0.0}));
+    TurnedMetric<double> metric(along);
+    metric.turn(turn);
+    const auto moved = Twist<double>::from_vector(turned_six(graphic_from_haptic.vector()));
+    const Vector6<double> first = problem.solve_gauss_newton(along, graphic_from_haptic, 0.0);
+    BOOST_TEST((turned.solve_gauss_newton(metric, moved, 0.0) - turned_six(first)).norm() < 1e-9);
+    const Vector6<double> second = problem.solve_newton(along, graphic_from_haptic);
+    BOOST_TEST_CONTEXT("falls off by " << falls_off) {
+      BOOST_TEST((turned.solve_newton(metric, moved) - turned_six(second)).norm() < 1e-9);
+      BOOST_TEST(turned.is_newton() == problem.is_newton());
+      const Vector6<double> back = problem.restore(along, 1e-6);
+      BOOST_TEST((turned.restore(metric, 1e-6) - turned_six(back)).norm() < 1e-11);
+    }
+  }
+}
+
+BOOST_AUTO_TEST_CASE(an_eightieth_of_the_metric_has_to_be_left_of_the_hessian) {
+  Problem problem;
+  for (const double left : {0.02, 0.0126, 0.0124, 0.005}) {
+    Matrix6<double> bend = Matrix6<double>::Zero();
+    bend(0, 0) = (1 - left) / 1e-3;
+    step_of(problem, 0.0, {2e-4, 0, -1e-3}, bend);
+    BOOST_TEST(problem.is_newton() == (left > 1.0 / 80));
+  }
+}
+
 BOOST_AUTO_TEST_SUITE_END()
