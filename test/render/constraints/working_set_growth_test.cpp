@@ -79,4 +79,33 @@ BOOST_AUTO_TEST_CASE(a_ghost_that_blocks_keeps_its_row) {
   BOOST_TEST(room.pairs[0].keeps_ghost);
 }
 
+BOOST_AUTO_TEST_CASE(what_was_noticed_is_taken_in_once_for_each_piece_of_the_tool) {
+  Room room;
+  room.add(0, 1e-3);
+  NoticedTriangles all;
+  all.push_back({0, 0, {}});
+  BOOST_TEST(!take_in_noticed(room.pairs, room.scene, all));
+  WitnessFeatures features;
+  features.size = 2;
+  all.push_back({1, 0, features});
+  all.push_back({0, 2, {}});
+  BOOST_TEST(take_in_noticed(room.pairs, room.scene, all));
+  BOOST_TEST(room.pairs.size() == 3);
+  BOOST_TEST_REQUIRE(room.pairs.find(0, 1) >= 0);
+  BOOST_TEST(room.pairs[room.pairs.find(0, 1)].features.size == 2);
+  BOOST_TEST((room.pairs[room.pairs.find(0, 1)].corners_world == room.mesh.corners(1)));
+  BOOST_TEST(room.pairs.find(2, 0) >= 0);
+  BOOST_TEST(!take_in_noticed(room.pairs, room.scene, all));
+}
+
+BOOST_AUTO_TEST_CASE(a_blocker_that_touches_and_repeats_others_is_to_be_measured) {
+  Room room;
+  room.add(0, 1e-7).state = PairState::repeats;
+  BOOST_TEST(!room.meet(0));
+  BOOST_TEST((room.pairs[0].state == PairState::left_out));
+  room.pairs[0].unused_ticks = 5;
+  BOOST_TEST(!room.meet(0));
+  BOOST_TEST(room.pairs[0].unused_ticks == 0);
+}
+
 BOOST_AUTO_TEST_SUITE_END()
