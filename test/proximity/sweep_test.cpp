@@ -2,6 +2,8 @@
 
 #include <boost/test/unit_test.hpp>
 
+#include <algorithm>
+#include <array>
 #include <limits>
 #include <memory>
 #include <random>
@@ -520,6 +522,126 @@ BOOST_AUTO_TEST_CASE(what_is_near_a_standing_tool_is_noticed_or_lies_behind_the_
   BOOST_TEST(noticed_in_all > trials_to_run(1000));
   BOOST_TEST(hidden > trials_to_run(100));
   BOOST_TEST(empty > trials_to_run(100));
+}
+
+BOOST_AUTO_TEST_CASE_TEMPLATE(only_the_time_that_is_of_interest_is_certified, Order, Orders) {
+  const Fall fall;
+  for (const double until : {0.25, 0.45, 0.75}) {
+    const feeler::MovingTool<Box> moving(fall.box, Vector::Zero(), 0.02, fall.pose, {Vector(0, 0, -2e-3), Vector::Zero()});
+    PlaneCache<double> planes;
+    int work = 0;
+    const auto result = Sweep<Box, Order>(planes, {}).certify(fall.mesh, moving, {}, work, 1000, until);
+    BOOST_TEST(result.blockers.empty() == (until < 0.5));
+    if (until < 0.5) BOOST_TEST(result.time == until);
+    BOOST_TEST(result.time <= std::min(until, 0.5));
+  }
+}
+
+BOOST_AUTO_TEST_CASE_TEMPLATE(a_sweep_certifies_again_as_if_it_were_new, Order, Orders) {
+  // Of the two triangles below one is known, so that only it is left to the first look.
+  const Fall fall;
+  const feeler::MovingTool<Box> moving(fall.box, Vector::Zero(), 0.02, fall.pose, {Vector(0, 0, -2e-3), Vector::Zero()});
+  const Eigen::Matrix3d corners = fall.mesh.corners(1).colwise() - moving.origin();
+  const std::array<KnownTriangle<double>, 1> known{{{1, {corners, Vector::UnitZ(), {}, true}}}};
+  PlaneCache<double> planes;
+  Sweep<Box, Order> sweep(planes, {});
+  for (int round = 0; round < 3; ++round) {
+    int work = 0;
+    const auto result = sweep.certify(fall.mesh, moving, std::span<const KnownTriangle<double>>(known), work, 1000);
+    std::set<int> names;
+    for (const auto& blocker : result.blockers) names.insert(blocker.triangle);
+    BOOST_TEST((names == std::set<int>{0, 1}));
+    BOOST_TEST(result.time <= 0.5);
+  }
+}
+
+BOOST_AUTO_TEST_CASE(what_was_noticed_at_one_place_is_forgotten_at_the_next) {
+  const Fall fall;
+  Clearance<double> clearance;
+  clearance.kept = 2e-3;
+  PlaneCache<double> planes;
+  Sweep<Box> sweep(planes, clearance);
+  for (const double height : {0.011, 0.5, 0.011}) {
+    const feeler::MovingTool<Box> standing(fall.box, Vector::Zero(), 0.02, {Vector(0, 0, height), fall.pose.rotation}, {});
+    int work = 0;
+    BOOST_TEST(sweep.notice(fall.mesh, standing, {}, work, 1000).size() == (height < 0.1 ? 2 : 0));
+  }
+}
+
+BOOST_AUTO_TEST_CASE(of_more_than_there_is_room_for_some_is_noticed_and_a_sweep_out_of_work_says_so_and_goes_on) {
+  // Chips under a box, none behind another.
+  constexpr int chips = 100;
+  feeler::Points<double> vertices(3 * chips, 3);
+  feeler::Triangles triangles(chips, 3);
+  for (int i = 0; i < chips; ++i) {
+    const double x = 0.001 * (i % 10 - 5), y = 0.001 * (i / 10 - 5);
+    vertices.middleRows(3 * i, 3) << x, y, 0, x + 4e-4, y, 0, x, y + 4e-4, 0;
+    triangles.row(i) << 3 * i, 3 * i + 1, 3 * i + 2;
+  }
+  const TriangleMesh<double> mesh(vertices, triangles);
+  const Box box(Vector(0.01, 0.01, 0.01));
+  Clearance<double> clearance;
+  clearance.kept = 2e-4;
+  const auto notice_at = [&](double x, int portion) {
+    const feeler::MovingTool<Box> standing(box, Vector::Zero(), 0.02, {Vector(x, 0, 0.0101), feeler::Quaternion<double>::Identity()}, {});
+    PlaneCache<double> planes;
+    Sweep<Box> sweep(planes, clearance);
+    int work = 0;
+    auto noticed = sweep.notice(mesh, standing, {}, work, portion);
+    for (int i = 0; noticed.is_exhausted && i < 1000; ++i) noticed = sweep.go_on_noticing(mesh, standing, {}, work, work + portion);
+    return noticed;
+  };
+  const int unlimited = std::numeric_limits<int>::max();
+  const auto all = notice_at(0, unlimited);
+  BOOST_TEST(all.full());
+  BOOST_TEST(!all.is_exhausted);
+  // Over the last column alone there is room for all, at once and in portions.
+  for (const int portion : {unlimited, 3}) {
+    const auto some = notice_at(0.0138, portion);
+    BOOST_TEST(!some.is_exhausted);
+    std::set<int> names;
+    for (const auto& near : some) names.insert(near.triangle);
+    BOOST_TEST(names.size() == std::size_t(some.size()));
+    BOOST_TEST(names.size() == 10U);
+    for (const int name : names) BOOST_TEST(name % 10 == 9);
+  }
+}
+
+BOOST_AUTO_TEST_CASE_TEMPLATE(a_tool_that_rolls_into_a_finely_cut_wall_stops_before_any_of_it_touches, Order, Orders) {
+  constexpr unsigned seed = 54;
+  BOOST_TEST_MESSAGE("seed " << seed);
+  std::mt19937 bits(seed);
+  const Soup soup = sheet_and_soup(bits, 24, 30);
+  const TriangleMesh<double> mesh(soup.vertices, soup.triangles);
+  const CheckedObject object(soup.vertices, soup.triangles);
+  int blocked = 0, certified = 0;
+  for (int i = 0; i < trials_to_run(150); ++i) {
+    const Box tool = random_box(bits);
+    RandomMotion<Box> random(bits, tool);
+    // Just above the middle of a triangle of the sheet, and turned and moved towards it.
+    const int under = mesh.triangle_count() - 1 - below(bits, 2 * 24 * 24);
+    const Vector middle = mesh.corners(under).rowwise().mean(), up = (i % 2 == 0 ? 1 : -1) * mesh.normal(under);
+    const int lowest = tool.support(random.pose.rotation.inverse() * -up);
+    random.pose.translation = middle + magnitude(bits, -5, -2) * up - random.pose.rotation * tool.vertex(lowest);
+    random.motion.angular = magnitude(bits, -2, 0.3) * random_direction(bits);
+    random.motion.linear = magnitude(bits, -4, -2) * (random_direction(bits) - up);
+    if (deepest_penetration(object, feeler::test::checked_tool(tool), random.wide().pose_at(0)).depth > 0) continue;
+    PlaneCache<double> planes(256);
+    const auto surface = std::make_unique<feeler::WallPlanes<double>>();
+    surface->clear();
+    const Clearance<double> clearance;
+    int work = 0;
+    const auto result = Sweep<Box, Order>(planes, clearance, surface.get()).certify(mesh, random.moving(), {}, work, std::numeric_limits<int>::max());
+    ++(result.blockers.empty() ? certified : blocked);
+    for (int k = 0; k <= 60; ++k) {
+      const auto found =
+          deepest_penetration(object, feeler::test::checked_tool(tool), random.wide().pose_at(WideReal(result.time) * WideReal(k) / 60));
+      if (found.depth > WideReal(clearance.allowance) * 1.01L)
+        BOOST_ERROR("motion " << i << " certified up to " << result.time << ", yet " << found.depth << " m deep at sample " << k);
+    }
+  }
+  BOOST_TEST_MESSAGE(blocked << " blocked, " << certified << " free");
+  BOOST_TEST(blocked > trials_to_run(20));
 }
 
 BOOST_AUTO_TEST_SUITE_END()
