@@ -95,7 +95,7 @@ BOOST_AUTO_TEST_CASE(a_query_of_a_triangle_of_kilometres_names_the_features_that
     Eigen::Matrix3d inside, edge;
     inside << below - size * u - size * v, below + size * u - size * v, below + size * v;
     edge << below - size * u, below + size * u, below + size * down;  // across the corner
-    const auto on_face = gjk(tool, inside, {}, 1e-8), on_edge = gjk(tool, edge, {}, 1e-8);
+    const auto on_face = feeler::gjk(tool, inside, {}, 1e-8), on_edge = feeler::gjk(tool, edge, {}, 1e-8);
     const auto corners_of = [](const auto& closest) {
       unsigned corners = 0;
       for (std::size_t i = 0; i < std::size_t(closest.features.size); ++i) corners |= 1U << unsigned(closest.features.corners[i]);
