@@ -418,17 +418,13 @@ BOOST_AUTO_TEST_CASE(required_separation_never_exceeds_what_there_is_and_falls_n
   }
 }
 
-BOOST_AUTO_TEST_CASE(a_motion_may_halve_what_is_less_than_twice_what_is_kept_and_a_step_leaves_that_half_or_nearly_what_is_kept) {
+BOOST_AUTO_TEST_CASE(a_motion_may_halve_what_is_less_than_twice_what_is_kept_and_a_step_leaves_that_half_or_what_is_kept) {
   const Clearance<double> clearance;
   const double kept = clearance.kept;
   for (const double share : {0.1, 0.9, 1.1, 1.9}) BOOST_TEST(clearance.required(share * kept) == share * kept / 2);
   for (const double share : {2.0, 2.1, 50.0}) BOOST_TEST(clearance.required(share * kept) == kept);
-  const double none = clearance.none();
-  for (const double share : {0.2, 0.9}) BOOST_TEST(clearance.to_leave(share * none) == share * none);
-  for (const double share : {1.1, 1.9}) BOOST_TEST(clearance.to_leave(share * none) == none);
-  for (const double share : {2.1, 100.0, 0.9 * kept / none})
-    BOOST_TEST(clearance.to_leave(share * none) == (share - 1) * none, boost::test_tools::tolerance(1e-12));
-  for (const double share : {1.1, 1.9}) BOOST_TEST(clearance.to_leave(share * kept) == kept - none);
+  for (const double share : {0.1, 0.9}) BOOST_TEST(clearance.to_leave(share * kept) == share * kept);
+  for (const double share : {1.1, 1.9}) BOOST_TEST(clearance.to_leave(share * kept) == kept);
   for (const double share : {2.1, 50.0}) BOOST_TEST(clearance.to_leave(share * kept) == share * kept / 2);
   BOOST_TEST(clearance.to_leave(clearance.negligible()) == 0);
 }

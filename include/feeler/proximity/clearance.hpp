@@ -26,11 +26,9 @@ struct Clearance {
   /// A separation up to it is none: rounding decided how much there is [m].
   Scalar negligible() const noexcept { return 2 * allowance; }
   /// What a step is to leave of a separation at a certified pose: half, which is what the certificate requires, but `kept` where there is that much and
-  /// all but next to nothing where there is less, or a fit without clearance would lose what holds it; 0 of what is negligible [m].
+  /// all where there is less, or a fit without clearance would lose what holds it; 0 of what is negligible [m].
   Scalar to_leave(Scalar separation) const noexcept {
-    if (!(separation > negligible())) return Scalar(0);
-    // Walls whose normals differ by rounding hold a tool between them that is to leave all.
-    return (std::min)(separation, (std::max)({separation / 2, none(), (std::min)(separation, kept) - none()}));
+    return separation > negligible() ? (std::min)(separation, (std::max)(separation / 2, kept)) : Scalar(0);
   }
   /// With a separation below it a wall is slid along without clearance, whichever of its triangles was measured [m].
   Scalar none() const noexcept { return 20 * allowance; }
