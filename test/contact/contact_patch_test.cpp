@@ -13,6 +13,7 @@
 #include "feeler/spatial/pose.hpp"
 #include "feeler/tool/round_solids.hpp"
 #include "feeler/tool/tool_incidence.hpp"
+#include "scenes/height_field.hpp"
 #include "support/random_tools.hpp"
 #include "support/sanitized.hpp"
 
@@ -45,17 +46,15 @@ Mesh mesh_of(std::initializer_list<Vector> points, std::initializer_list<std::ar
 Mesh floor() { return mesh_of({{-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}}, {{0, 1, 2}, {0, 2, 3}}); }
 /// A roof whose ridge is the y axis; slopes of 45° and no bottom.
 Mesh roof() { return mesh_of({{0, -1, 0}, {0, 1, 0}, {1, 0, -1}, {-1, 0, -1}}, {{0, 2, 1}, {0, 1, 3}}); }
-/// A floor cut along y into strips of a width, from x = −5 to 5 of them, of two triangles each.
-Mesh strips(double width) {
-  feeler::Points<double> vertices(22, 3);
-  feeler::Triangles triangles(20, 3);
-  for (int i = 0; i < 22; ++i) vertices.row(i) << width * (i / 2 - 5), i % 2 == 0 ? -1 : 1, 0;
-  for (int i = 0; i < 10; ++i) {
-    triangles.row(2 * i) << 2 * i, 2 * i + 2, 2 * i + 3;
-    triangles.row(2 * i + 1) << 2 * i, 2 * i + 3, 2 * i + 1;
-  }
+/// A floor of cells of two triangles each.
+Mesh floor(const feeler::scenes::Grid& grid) {
+  feeler::Points<double> vertices;
+  feeler::Triangles triangles;
+  feeler::scenes::mesh_height_field(grid, [](double, double) { return 0.0; }, vertices, triangles);
   return {vertices, triangles};
 }
+/// A floor cut along y into strips of a width, from x = −5 to 5 of them.
+Mesh strips(double width) { return floor({-5 * width, 5 * width, -1, 1, 10, 1}); }
 /// A spike that points up, with its tip at the origin.
 Mesh spike() { return mesh_of({{0, 0, 0}, {1, -1, -3}, {1, 1, -3}, {-1, 0, -3}}, {{0, 1, 2}, {0, 2, 3}, {0, 3, 1}}); }
 
@@ -548,15 +547,7 @@ BOOST_AUTO_TEST_CASE(a_triangle_with_rows_that_are_not_as_close_as_it_is_does_no
 
 BOOST_AUTO_TEST_CASE(amid_a_wall_a_triangle_without_vertices_over_it_has_no_rows_and_holds_all_the_same) {
   // A floor of 20 × 20 squares of 1 cm, under a box of 7 × 5 cm.
-  feeler::Points<double> vertices(441, 3);
-  feeler::Triangles triangles(800, 3);
-  for (int i = 0; i < 441; ++i) vertices.row(i) << 0.01 * (i % 21 - 10), 0.01 * (i / 21 - 10), 0;
-  for (int i = 0; i < 400; ++i) {
-    const int corner = i / 20 * 21 + i % 20;
-    triangles.row(2 * i) << corner, corner + 1, corner + 22;
-    triangles.row(2 * i + 1) << corner, corner + 22, corner + 21;
-  }
-  const Mesh mesh(vertices, triangles);
+  const Mesh mesh = floor({-0.1, 0.1, -0.1, 0.1, 20, 20});
   const Found found = find(Box(Vector(0.035, 0.025, 0.01)), mesh, 2 * (10 * 20 + 10), at({0, 0, 0.01 + in_touch}));
   BOOST_TEST(found.has_rows);
   BOOST_TEST(found.rows.size() == 0);
