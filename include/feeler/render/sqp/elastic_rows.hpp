@@ -5,7 +5,6 @@
 #include <array>
 #include <cstddef>
 #include <limits>
-#include <utility>
 
 #include "feeler/core/index.hpp"
 #include "feeler/core/scalar.hpp"
@@ -17,12 +16,10 @@
 
 namespace feeler {
 
-/// Solves  min ½ dᵀ H d + gᵀ d + c ξ  subject to  aₖᵀ d ≥ max(hardₖ, softₖ − ξ) for rows in conflict, aₖᵀ d ≥ softₖ for all others,  ξ ≥ 0.
+/// Solves  min ½ dᵀ H d + gᵀ d + c ξ  subject to  aₖᵀ d ≥ max(hardₖ, softₖ − ξ),  ξ ≥ 0.
 ///
 /// The penalty of the largest violation with price c (J. Nocedal, S. Wright, "Numerical Optimization", 2nd ed., section 17.2): exact as long as the
-/// multipliers of soft rows add up to no more than c. As it counts the largest violation, rows that repeat others change nothing. A row is in conflict
-/// where a certificate of infeasibility names it, or one that is parallel; where a step of zero leaves it short by a hundredth of the most that is
-/// missing; or where multipliers cost more than c and it is active. All others keep their soft bound.
+/// multipliers of soft rows add up to no more than c. As it counts the largest violation, rows that repeat others change nothing.
 ///
 /// The relaxation ξ grows from 0 to the least that will do. A QP without a solution names rows that contradict each other, Σ yₖ aₖ = 0 with y ≥ 0.
 /// So Σ yₖ boundₖ ≤ 0 must hold, which tells how much ξ must be. Where multipliers add up to more than c, they fall by 1ᵀ(A H⁻¹ Aᵀ)⁻¹ 1 for each unit
@@ -35,7 +32,7 @@ class ElasticRows {
 
   void clear() noexcept { size_ = 0; }
   /// Appends the bounds of the next row of a problem.
-  void add(Scalar soft, Scalar hard) noexcept { rows_[as_index(size_++)] = {soft, (std::min)(hard, soft), false}; }
+  void add(Scalar soft, Scalar hard) noexcept { rows_[as_index(size_++)] = {soft, (std::min)(hard, soft)}; }
 
   /// @param unit  the new unit of length, in the old one
   void change_unit(Scalar unit) noexcept {
@@ -50,8 +47,6 @@ class ElasticRows {
   Scalar relaxation() const noexcept { return relaxation_; }
   /// Whether the QPs allowed, fewer than `most_solves`, did not suffice: less relaxation may do.
   bool is_cut_short() const noexcept { return is_cut_short_; }
-  /// Whether a row of the last solution is in conflict.
-  bool is_relaxed(int k) const noexcept { return rows_[as_index(k)].is_relaxed; }
   /// The relaxation that a step of zero needs [m].
   Scalar relaxation_at_rest() const noexcept {
     Scalar most(0);
@@ -62,7 +57,7 @@ class ElasticRows {
   /// @param problem  its Hessian, gradient and rows are given; its bounds become those that hold
   /// @param price    c
   /// @param least    smallest change of ξ worth a QP: some tolerances of the solver [m]
-  /// @param allowed  QPs, `most_solves` at most; with the last one all rows are relaxed
+  /// @param allowed  QPs, `most_solves` at most; with the last one rows are relaxed by all that may be needed
   /// @param start    rows that are likely to be active
   /// @return  QPs solved, or 0 where not even the hard bounds have a solution, to the solver's tolerance
   /// @cost    noexcept, no allocation; one QP where nothing is to be relaxed
@@ -70,13 +65,14 @@ class ElasticRows {
   int solve(Solver& solver, QpProblem<Scalar>& problem, Scalar price, Scalar least, int allowed, const WarmStart& start,
             QpSolution<Scalar>& solution) noexcept {
     const int last = (std::min)(allowed, most_solves);
-    Search search{.price = price, .least = least, .most = relaxation_at_rest()};
-    begin_again(search);
+    const Scalar most = relaxation_at_rest();
+    Search search{.price = price, .least = least, .most = most, .high = most};
+    relaxation_ = Scalar(0);
     is_cut_short_ = false;
     for (int solves = 1; solves <= last; ++solves) {
       const bool is_last = solves == last;
       if (is_last) {
-        relax_all(search.high);
+        relaxation_ = search.high;
         is_cut_short_ = allowed < most_solves;
       }
       load(problem);
@@ -93,7 +89,6 @@ class ElasticRows {
  private:
   struct Row {
     Scalar soft, hard;
-    bool is_relaxed;
   };
 
   /// The search for the least relaxation that will do.
@@ -132,31 +127,17 @@ class ElasticRows {
 
   Scalar bound(int k) const noexcept {
     const Row& row = rows_[as_index(k)];
-    return row.is_relaxed ? (std::max)(row.hard, row.soft - relaxation_) : row.soft;
+    return (std::max)(row.hard, row.soft - relaxation_);
   }
   bool is_soft(int k) const noexcept { return bound(k) > rows_[as_index(k)].hard; }
   void load(QpProblem<Scalar>& problem) const noexcept {
     for (int k = 0; k < size_; ++k) problem.bounds[as_index(k)] = bound(k);
   }
-  /// At the start, and where more rows are relaxed, so that less may do.
-  void begin_again(Search& search) noexcept {
-    relaxation_ = search.low = Scalar(0);
-    search.high = search.most;
-    search.is_least = true;
-  }
-  bool relax(int k) noexcept { return !std::exchange(rows_[as_index(k)].is_relaxed, true); }
-  void relax_all(Scalar relaxation) noexcept {
-    relaxation_ = relaxation;
-    for (int k = 0; k < size_; ++k) rows_[as_index(k)].is_relaxed = true;
-  }
-
-  /// Where rows contradict each other, relaxes more rows, or the relaxed ones by more; false where neither is left to do.
+  /// Where rows contradict each other, relaxes them by more; false where that does not help.
   bool resolve_conflict(const QpProblem<Scalar>& problem, const QpSolution<Scalar>& solution, Search& search) noexcept {
-    const bool joins = relax_like(problem, solution.conflict);
-    if (joins) begin_again(search);
-    if (!joins && !(relaxation_ < search.high)) return false;
+    if (!(relaxation_ < search.high)) return false;
     search.low = relaxation_;
-    relaxation_ = (std::min)(search.low + (std::max)(lack(problem, solution), joins ? Scalar(0) : search.least), search.high);
+    relaxation_ = (std::min)(search.low + (std::max)(lack(problem, solution), search.least), search.high);
     search.is_least = true;
     return true;
   }
@@ -168,10 +149,6 @@ class ElasticRows {
       if (search.is_least || is_close(sum, search)) return false;
       search.high = relaxation_;
     } else {
-      if (relax_active(solution)) {
-        begin_again(search);
-        return true;
-      }
       if (!(relaxation_ < search.high)) return false;
       search.low = relaxation_;
     }
@@ -187,32 +164,6 @@ class ElasticRows {
   bool is_close(Scalar sum, const Search& search) const noexcept {
     return sum >= search.price - search.price / 1000 || !(relaxation_ - search.low > (std::max)(search.least, search.most / 1000));
   }
-  /// Relaxes the rows that are active; false where all of them are relaxed.
-  bool relax_active(const QpSolution<Scalar>& solution) noexcept {
-    bool joins = false;
-    for (const auto& active : solution.active) joins = relax(active.row) || joins;
-    return joins;
-  }
-  /// Relaxes rows, those that are parallel to one of them, and those that a step of zero leaves short.
-  template <class List>
-  bool relax_like(const QpProblem<Scalar>& problem, const List& list) noexcept {
-    const Scalar parallel = Scalar(1) - Scalar(1e-6);
-    const Scalar missing = relaxation_at_rest() / 100;
-    bool joins = false;
-    for (int k = 0; k < size_; ++k) {
-      if (rows_[as_index(k)].soft > missing) joins = relax(k) || joins;
-    }
-    for (const int i : list) {
-      const Vector3<Scalar> direction = problem.rows[as_index(i)].template head<3>();
-      for (int k = 0; k < size_; ++k) {
-        if (rows_[as_index(k)].is_relaxed || !(problem.rows[as_index(k)].template head<3>().dot(direction) > parallel * direction.squaredNorm()))
-          continue;
-        joins = relax(k) || joins;
-      }
-    }
-    return joins;
-  }
-
   /// By how much more rows that contradict each other must be relaxed.
   Scalar lack(const QpProblem<Scalar>& problem, const QpSolution<Scalar>& solution) const noexcept {
     const auto& rows = solution.conflict;
