@@ -592,18 +592,22 @@ BOOST_AUTO_TEST_CASE(a_patch_finds_the_same_whatever_it_found_before) {
   }
 }
 
-BOOST_AUTO_TEST_CASE(beyond_the_end_of_a_ridge_edges_cross_where_the_mesh_rises_there_and_not_where_it_ends) {
-  // A roof along y with a gable at y = 1 that rises from the end of its ridge by a half; at y = −1 there is nothing.
-  const Mesh mesh = mesh_of({{0, -1, 0}, {0, 1, 0}, {1, 0, -1}, {-1, 0, -1}, {1, 3, 1}, {-1, 3, 1}}, {{0, 2, 1}, {0, 1, 3}, {1, 4, 5}});
+BOOST_AUTO_TEST_CASE(beyond_the_end_of_a_ridge_edges_cross_where_it_runs_into_the_object_and_nowhere_else) {
+  // A roof along y with a gable at y = 1 that rises from the end of its ridge by a half, with or without what joins the two; at y = −1 there is nothing.
+  const feeler::Points<double> vertices{{0, -1, 0}, {0, 1, 0}, {1, 0, -1}, {-1, 0, -1}, {1, 3, 1}, {-1, 3, 1}};
   const double beyond = 5e-6;
   const feeler::Segment<double> across(Vector(-0.05, 0, 0), Vector(0.05, 0, 0));
-  for (int triangle = 0; triangle < 2; ++triangle) {
-    const auto edges_at = [&](double y) { return find(across, mesh, triangle, at({0, y, 4 * beyond}), true).count(FeaturePair::edge_edge); };
-    BOOST_TEST_CONTEXT("triangle " << triangle) {
-      BOOST_TEST(edges_at(1 + beyond) == 1);
-      BOOST_TEST(edges_at(1 - beyond) == 1);
-      BOOST_TEST(edges_at(-1 + beyond) == 1);
-      BOOST_TEST(edges_at(-1 - beyond) == 0);
+  for (const bool is_joined : {true, false}) {
+    const Mesh mesh(vertices, is_joined ? feeler::Triangles{{0, 2, 1}, {0, 1, 3}, {1, 4, 5}, {1, 2, 4}, {1, 5, 3}}
+                                        : feeler::Triangles{{0, 2, 1}, {0, 1, 3}, {1, 4, 5}});
+    for (int triangle = 0; triangle < 2; ++triangle) {
+      const auto edges_at = [&](double y) { return find(across, mesh, triangle, at({0, y, 4 * beyond}), true).count(FeaturePair::edge_edge); };
+      BOOST_TEST_CONTEXT("triangle " << triangle << (is_joined ? ", joined" : ", alone")) {
+        BOOST_TEST(edges_at(1 + beyond) == (is_joined ? 1 : 0));
+        BOOST_TEST(edges_at(1 - beyond) == 1);
+        BOOST_TEST(edges_at(-1 + beyond) == 1);
+        BOOST_TEST(edges_at(-1 - beyond) == 0);
+      }
     }
   }
 }

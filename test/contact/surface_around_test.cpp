@@ -85,7 +85,8 @@ BOOST_AUTO_TEST_CASE(a_flat_surface_rises_nowhere_however_it_is_turned_and_one_b
       surface.stand_on(triangle);
       for (int k = 0; k < 3; ++k) {
         BOOST_TEST(!surface.rises_across(k, Vector::UnitZ()));
-        for (const Vector& way : {Vector(Vector::UnitX()), Vector(-Vector::UnitX())}) BOOST_TEST(!surface.rises_beyond(k, way, Vector::UnitZ()));
+        for (const Vector& way : {Vector(Vector::UnitX()), Vector(-Vector::UnitX())})
+          BOOST_TEST(!surface.leads_under_a_neighbour(k, way, Vector::UnitZ()));
       }
     }
   }
@@ -95,8 +96,9 @@ BOOST_AUTO_TEST_CASE(a_flat_surface_rises_nowhere_however_it_is_turned_and_one_b
     Surface surface(mesh, axes, 1e-9);
     surface.stand_on(triangle_at(-1, 0));
     const Vector upward = Vector(slope, 0, 1).normalized();
-    BOOST_TEST(surface.rises_beyond(1, Vector::UnitX(), upward) == (slope > 0));  // from its corner on the bend
-    BOOST_TEST(!surface.rises_beyond(1, Vector(-Vector::UnitX()), upward));
+    const Vector ray(1, 0, -slope);  // along the triangle, from its corner on the bend
+    BOOST_TEST(surface.leads_under_a_neighbour(1, ray, upward) == (slope > 0));
+    BOOST_TEST(!surface.leads_under_a_neighbour(1, Vector(-ray), upward));
   }
 }
 
@@ -115,7 +117,7 @@ BOOST_AUTO_TEST_CASE(a_wall_is_flat_across_its_edges_though_rounding_bends_them)
   }
 }
 
-BOOST_AUTO_TEST_CASE(nothing_rises_beyond_the_corner_of_a_triangle_alone) {
+BOOST_AUTO_TEST_CASE(no_ray_leads_under_a_neighbour_of_a_triangle_alone) {
   // Seen along any normal one of its own edges may rise; what is beside it is what counts.
   std::mt19937 bits(8);
   const feeler::Points<double> vertices{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
@@ -125,7 +127,7 @@ BOOST_AUTO_TEST_CASE(nothing_rises_beyond_the_corner_of_a_triangle_alone) {
   surface.stand_on(0);
   for (int trial = 0; trial < 100; ++trial) {
     const Vector way = random_direction(bits), normal = random_direction(bits);
-    for (int corner = 0; corner < 3; ++corner) BOOST_TEST(!surface.rises_beyond(corner, way, normal));
+    for (int corner = 0; corner < 3; ++corner) BOOST_TEST(!surface.leads_under_a_neighbour(corner, way, normal));
   }
 }
 

@@ -329,6 +329,54 @@ BOOST_AUTO_TEST_CASE(the_triangle_along_a_direction_has_the_edge_that_points_mos
   BOOST_TEST(away > 100);
 }
 
+BOOST_AUTO_TEST_CASE(a_ray_leads_under_a_neighbour_where_a_triangle_covers_it_in_the_view_and_rises_over_it) {
+  constexpr unsigned seed = 12;
+  BOOST_TEST_MESSAGE("seed " << seed);
+  std::mt19937 bits(seed);
+  int under = 0, clear = 0;
+  for (int round = 0; round < 2000; ++round) {
+    std::array<double, 6> heights{};
+    for (double& h : heights) h = unit(bits);
+    const Mesh mesh = fan(heights, round % 7);
+    const Vector view = Vector(unit(bits), unit(bits), unit(bits)).normalized();
+    const Vector ray = view.cross(Vector(unit(bits), unit(bits), unit(bits))), upward = view.cross(ray).normalized();
+    for (int start = 0; start < mesh.triangle_count(); ++start) {
+      const auto& corners = mesh.triangle(start);
+      const int corner = mesh.vertex(corners[0]).isZero(0) ? 0 : mesh.vertex(corners[1]).isZero(0) ? 1 : 2;
+      bool is_covered = false;
+      for (int other = 0; other < mesh.triangle_count(); ++other) {
+        if (other == start) continue;
+        // ray = α a + β b + γ view, with α, β > 0, of which one rises.
+        const int tip = mesh.vertex(mesh.triangle(other)[0]).isZero(0) ? 0 : mesh.vertex(mesh.triangle(other)[1]).isZero(0) ? 1 : 2;
+        Eigen::Matrix3d basis;
+        basis << mesh.corners(other).col((tip + 1) % 3), mesh.corners(other).col((tip + 2) % 3), view;
+        const Vector weights = basis.partialPivLu().solve(ray);
+        is_covered = is_covered || (weights[0] > 0 && weights[1] > 0);
+      }
+      BOOST_TEST(feeler::leads_under_a_neighbour<double>(mesh, start, corner, ray, upward, 1e-9) == is_covered);
+      ++(is_covered ? under : clear);
+    }
+  }
+  BOOST_TEST(under > 1000);
+  BOOST_TEST(clear > 1000);
+}
+
+BOOST_AUTO_TEST_CASE(a_flat_surface_leads_a_ray_along_it_under_nothing_and_a_valley_does_in_every_view_across_it) {
+  // Two plates that meet along y, of which the right one rises.
+  for (const double slope : {0.0, 0.2, -0.2}) {
+    const Mesh mesh =
+        Mesh(Points<double>{{-1, -1, 0}, {0, -1, 0}, {0, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {-1, 1, 0}, {1, -1, slope}, {1, 0, slope}, {1, 1, slope}},
+             Triangles{{0, 1, 2}, {0, 2, 3}, {3, 2, 4}, {3, 4, 5}, {1, 6, 7}, {1, 7, 2}, {2, 7, 8}, {2, 8, 4}});
+    for (int triangle = 0; triangle < 4; ++triangle)
+      for (int corner = 0; corner < 3; ++corner) {
+        if (!mesh.vertex(mesh.triangle(triangle)[std::size_t(corner)]).isZero(0)) continue;
+        for (const Vector& ray : {Vector(1, 0, 0), Vector(1, 0.3, 0), Vector(1, -0.3, 0)})
+          BOOST_TEST(feeler::leads_under_a_neighbour<double>(mesh, triangle, corner, ray, Vector::UnitZ(), 1e-6) == (slope > 0));
+        BOOST_TEST(!feeler::leads_under_a_neighbour<double>(mesh, triangle, corner, Vector(-1, 0, 0), Vector::UnitZ(), 1e-6));
+      }
+  }
+}
+
 BOOST_AUTO_TEST_CASE(vertex_of_many_edges_accepts_every_direction) {
   const int n = 65;
   Points<double> p(n + 1, 3);

@@ -84,10 +84,15 @@ class EdgeEdgeRows {
     const Vector normal = cross / (along_normal < Scalar(0) ? -sqrt(cross_squared) : sqrt(cross_squared));
     const Scalar gap = maker_.on_surface(normal.dot(between));
     if (abs(gap) > lengths_.largest_gap || !surface_.is_clear_of_neighbour_across(object.number, normal)) return;
-    // As beyond a valley.
-    if (beyond > Scalar(0) &&
-        !surface_.rises_beyond(along_object < Scalar(0) ? object.number : (object.number + 1) % 3, along_object < Scalar(0) ? Vector(-u) : u, normal))
-      return;
+    // Past its end the edge holds nothing. But where its line goes on into the object, seen along the tool's edge, a step may lead back to it, as
+    // beyond a valley.
+    if (beyond > Scalar(0)) {
+      const Vector sideways = normal.cross(tool);
+      const bool is_before = along_object < Scalar(0);
+      if (!surface_.leads_under_a_neighbour(is_before ? object.number : (object.number + 1) % 3,
+                                            (sideways.dot(u) < Scalar(0)) == is_before ? sideways : Vector(-sideways), normal))
+        return;
+    }
     const Scalar tool_length = sqrt(tool_squared);
     const Scalar room = (std::min)({(std::max)(-beyond, Scalar(0)), part_of_tool * tool_length, (1 - part_of_tool) * tool_length});
     rows.push_back(maker_.row_of_edges(normal, Vector(tool_start + part_of_tool * tool), gap, room, u, Vector(tool / tool_length)));

@@ -112,17 +112,9 @@ class SurfaceAround {
       return normal_world.dot(along) > tolerance * along.norm();
     });
   }
-  /// Whether the mesh beside the triangle rises from a plane through a corner, on the side of its normal, in a direction along it.
-  bool rises_beyond(int corner, const Vector& direction, const Vector& normal) const noexcept {
-    const auto& own = mesh_.triangle(triangle_);
-    const int vertex = own[std::size_t(corner)];
-    const auto neighbours = mesh_.topology().vertex_neighbours(vertex);
-    const Vector direction_world = world_from_tool_ * direction, normal_world = world_from_tool_ * normal;
-    return int(neighbours.size()) <= maximum_cone_valence && std::any_of(neighbours.begin(), neighbours.end(), [&](int other) {
-             if (std::find(own.begin(), own.end(), other) != own.end()) return false;
-             const Vector along = (mesh_.vertex(other) - mesh_.vertex(vertex)).template cast<Scalar>();
-             return direction_world.dot(along) > Scalar(0) && normal_world.dot(along) > tolerance * along.norm();
-           });
+  /// Whether a ray from a corner leads under another triangle there, in a view along a line; the arguments as there.
+  bool leads_under_a_neighbour(int corner, const Vector& ray, const Vector& upward) const noexcept {
+    return feeler::leads_under_a_neighbour(mesh_, triangle_, corner, direction_of(ray), direction_of(upward), MeshScalar(tolerance));
   }
 
  private:

@@ -101,8 +101,25 @@ bool vertex_cone_contains(const TriangleMesh<Scalar>& mesh, int vertex, const Ve
   return true;
 }
 
-/// The triangle at a corner of another one whose edges there point most along a direction, found by walking around the corner; -1 if none of
-/// them points along it.
+/// The other triangles at a corner of a triangle, found by walking around it.
+/// @param visit  with the number of a triangle; false ends the walk
+/// @cost  noexcept, no allocation, at most twice `maximum_cone_valence` triangles
+template <RealScalar Scalar, class Visit>
+void visit_triangles_around(const TriangleMesh<Scalar>& mesh, int triangle, int corner, const Visit& visit) noexcept {
+  const int vertex = mesh.triangle(triangle)[std::size_t(corner)];
+  for (const int side : {0, 2}) {  // across the edge that leaves the vertex, and, if the surface ends there, across the one that comes to it
+    int current = triangle;
+    for (int step = 0; step < maximum_cone_valence; ++step) {
+      const std::array<int, 3>& corners = mesh.triangle(current);
+      const int k = corners[0] == vertex ? 0 : corners[1] == vertex ? 1 : 2;
+      current = mesh.topology().neighbour(current, (k + side) % 3);
+      if (current < 0) break;
+      if (current == triangle || !visit(current)) return;
+    }
+  }
+}
+
+/// The triangle at a corner of another one whose edges there point most along a direction; -1 if none of them points along it.
 ///
 /// Where a direction leaves the normal cone of the vertex, the mesh is nearer there to what is off the vertex in that direction.
 /// @cost  noexcept, no allocation, at most twice `maximum_cone_valence` triangles
@@ -112,30 +129,45 @@ int triangle_along(const TriangleMesh<Scalar>& mesh, int triangle, int corner, c
   const int vertex = mesh.triangle(triangle)[std::size_t(corner)];
   int best = -1;
   Scalar highest(0);
-  const auto rise = [&](int t) {
-    Scalar most(0);
-    for (const int other : mesh.triangle(t)) {
+  visit_triangles_around(mesh, triangle, corner, [&](int current) {
+    for (const int other : mesh.triangle(current)) {
       if (other == vertex) continue;
       const Vector3<Scalar> along = mesh.vertex(other) - mesh.vertex(vertex);
-      most = (std::max)(most, Scalar(direction.dot(along) / sqrt(along.squaredNorm())));
-    }
-    return most;
-  };
-  for (const int side : {0, 2}) {  // across the edge that leaves the vertex, and, if the surface ends there, across the one that comes to it
-    int current = triangle;
-    for (int step = 0; step < maximum_cone_valence; ++step) {
-      const std::array<int, 3>& corners = mesh.triangle(current);
-      const int k = corners[0] == vertex ? 0 : corners[1] == vertex ? 1 : 2;
-      current = mesh.topology().neighbour(current, (k + side) % 3);
-      if (current < 0) break;
-      if (current == triangle) return best;
-      const Scalar height = rise(current);
+      const Scalar height = direction.dot(along) / sqrt(along.squaredNorm());
       if (!(height > highest)) continue;
       highest = height;
       best = current;
     }
-  }
+    return true;
+  });
   return best;
+}
+
+/// Whether a ray from a corner of a triangle leads under another triangle there, in a view along a line.
+/// @param ray        in the view, at right angles to the line, any length
+/// @param upward     in the view, at right angles to the ray, unit
+/// @param tolerance  sine by which an edge of the other triangle must rise from the ray, and by which one on the ray may miss it
+/// @cost  noexcept, no allocation, at most twice `maximum_cone_valence` triangles
+template <RealScalar Scalar>
+bool leads_under_a_neighbour(const TriangleMesh<Scalar>& mesh, int triangle, int corner, const Vector3<Scalar>& ray, const Vector3<Scalar>& upward,
+                             const Scalar& tolerance) noexcept {
+  using std::sqrt;
+  const int vertex = mesh.triangle(triangle)[std::size_t(corner)];
+  bool is_under = false;
+  visit_triangles_around(mesh, triangle, corner, [&](int current) {
+    const std::array<int, 3>& corners = mesh.triangle(current);
+    const int k = corners[0] == vertex ? 0 : corners[1] == vertex ? 1 : 2;
+    Vector3<Scalar> upper = mesh.vertex(corners[std::size_t((k + 1) % 3)]) - mesh.vertex(vertex);
+    Vector3<Scalar> lower = mesh.vertex(corners[std::size_t((k + 2) % 3)]) - mesh.vertex(vertex);
+    if (upward.dot(upper) < upward.dot(lower)) upper.swap(lower);
+    const Scalar rise = upward.dot(upper), fall = -upward.dot(lower);
+    const Scalar miss = tolerance * sqrt(lower.squaredNorm());
+    // Of edges on both sides of the ray's line, some point between the two is on that line: on the ray, or behind the corner.
+    is_under = rise > tolerance * sqrt(upper.squaredNorm()) && fall >= -miss &&
+               ray.dot(lower) * rise + ray.dot(upper) * (std::max)(fall, miss) > Scalar(0);
+    return !is_under;
+  });
+  return is_under;
 }
 
 }  // namespace feeler
