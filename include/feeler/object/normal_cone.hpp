@@ -163,8 +163,8 @@ bool leads_under_a_neighbour(const TriangleMesh<Scalar>& mesh, int triangle, int
     const Scalar rise = upward.dot(upper), fall = -upward.dot(lower);
     const Scalar miss = tolerance * sqrt(lower.squaredNorm());
     // Of edges on both sides of the ray's line, some point between the two is on that line: on the ray, or behind the corner.
-    is_under = rise > tolerance * sqrt(upper.squaredNorm()) && fall >= -miss &&
-               ray.dot(lower) * rise + ray.dot(upper) * (std::max)(fall, miss) > Scalar(0);
+    is_under =
+        rise > tolerance * sqrt(upper.squaredNorm()) && fall >= -miss && ray.dot(lower) * rise + ray.dot(upper) * (std::max)(fall, miss) > Scalar(0);
     return !is_under;
   });
   return is_under;
