@@ -183,6 +183,23 @@ BOOST_AUTO_TEST_CASE(a_face_a_little_above_a_level_wall_finds_its_rim) {
   BOOST_TEST(found.size() == 2u);
 }
 
+BOOST_AUTO_TEST_CASE(of_a_round_face_a_little_above_a_level_wall_the_rim_is_found_however_short_its_sides_are) {
+  std::mt19937 bits(5);
+  Sheet sheet(bits, 4);
+  sheet.axes.setIdentity();
+  sheet.mesh = sheet.make(4);
+  for (const int corners : {4, 12, 32, 128}) {
+    const auto corner = [&](int k) {
+      const double angle = 2 * 3.14159265358979 * (k + 0.5) / corners;
+      return Vector(0.25 + 0.2 * std::cos(angle), 0.2 * std::sin(angle), 1e-4);
+    };
+    std::set<int> found;
+    feeler::OutermostAtRim<double, double>(sheet.mesh, sheet.mesh.walls().of_triangle(0), corners, corner, Vector::UnitZ())
+        .find([](int) { return false; }, [&](int t) { found.insert(t); });
+    BOOST_TEST(found.size() == 2U, corners << " corners");
+  }
+}
+
 BOOST_AUTO_TEST_CASE(of_a_face_of_as_many_corners_as_there_is_room_for_each_counts) {
   // A round face whose corners point at the rim one by one: only the tip of that corner is over it.
   std::mt19937 bits(6);

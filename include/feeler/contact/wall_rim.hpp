@@ -34,7 +34,6 @@ class OutermostAtRim {
         is_clockwise_(normal_.dot(outward) < Scalar(0)) {
     origin_ = corner(0);
     along_ = corner(1) - origin_;
-    const Scalar along_length = along_.norm();
     along_ = (along_ - normal_.dot(along_) * normal_).normalized();
     across_ = normal_.cross(along_);
     Vector lower = origin_, upper = origin_;
@@ -46,11 +45,11 @@ class OutermostAtRim {
       face_.push_back(flat(point));
     }
     const Wall& plane = mesh.walls()[wall];
+    const Scalar around = Scalar(plane.flatness) + (upper - lower).norm() / 1000;  // the face lies a little above the wall
     const Vector centre = mesh.vertex(mesh.triangle(plane.triangle)[0]).template cast<Scalar>(), extent = Vector::Constant(Scalar(plane.radius));
     lower = lower.cwiseMax(centre - extent);
     upper = upper.cwiseMin(centre + extent);
     const Vector to_boxes = mesh.bvh().origin().template cast<Scalar>();
-    const Scalar around = Scalar(plane.flatness) + along_length / 1000;
     lower_ = lower - to_boxes - Vector::Constant(around);
     upper_ = upper - to_boxes + Vector::Constant(around);
     outermost_.fill(-std::numeric_limits<Scalar>::infinity());
