@@ -23,7 +23,6 @@ struct Passage {
   WitnessFeatures features;                          ///< of the last query, or those given
   bool turns = false;                                ///< the plane holds where it turns with the tool, as it is at the end
   bool is_cut = false;                               ///< the work limit was reached: it may be free for longer
-  Scalar slack = std::numeric_limits<Scalar>::infinity();  ///< separation at the end, where that was measured [m]
 };
 
 /// A triangle as the tool passes it.
@@ -249,9 +248,7 @@ class TrianglePassage {
   bool is_late(Scalar time, Scalar enough) const noexcept { return last_.slack < required_ && 4 * (enough - time) * moving_.length() <= resolution_; }
 
   Result free_by(const Vector3<Scalar>& normal) const noexcept { return {.time = end_.time, .normal = normal, .features = warm_}; }
-  Result free_by_last(bool turns = false) const noexcept {
-    return {.time = end_.time, .normal = last_.normal, .features = warm_, .turns = turns, .slack = last_.slack};
-  }
+  Result free_by_last(bool turns = false) const noexcept { return {.time = end_.time, .normal = last_.normal, .features = warm_, .turns = turns}; }
 
   const MovingTool<Tool>& moving_;
   const PassedTriangle<Scalar>& triangle_;

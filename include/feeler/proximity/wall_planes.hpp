@@ -46,8 +46,7 @@ class WallPlanes {
     piece_ = piece;
     may_be_near_ = may_be_near;
     to_mesh_ = moving.origin() - mesh.bvh().origin().template cast<Scalar>();
-    keeps_axes_ = piece == last_piece_ && start.rotation == axes_at_end_;
-    last_piece_ = piece;
+    keeps_axes_ = start.rotation == axes_at_end_;
     last_shift_ = shift_;
     last_end_ = end_;
     ++motion_;
@@ -240,7 +239,7 @@ class WallPlanes {
     return (may_be_near_ || is_behind) && plane.heights.parts_closely(height - plane.offset, clearance);
   }
 
-  int piece_ = 0, last_piece_ = -1;
+  int piece_ = 0;
   bool may_be_near_ = true;
   Vector3<Scalar> to_mesh_;  // from the origin of the hierarchy to that of the motion [m]
   bool keeps_axes_ = false;     // the tool is turned as where the last motion ended
