@@ -23,7 +23,8 @@ namespace {
 
 struct Sheet {
   /// n×n squares of two triangles, 1 m wide, in a plane turned in space, with a roof of another plane beside it.
-  Sheet(std::mt19937& bits, int n) : axes(random_rotation(bits).toRotationMatrix()), mesh(make(n)) {}
+  Sheet(const Eigen::Matrix3d& turned, int n) : axes(turned), mesh(make(n)) {}
+  Sheet(std::mt19937& bits, int n) : Sheet(random_rotation(bits).toRotationMatrix(), n) {}
 
   TriangleMesh<double> make(int n) const {
     feeler::Points<double> vertices;
@@ -169,10 +170,7 @@ BOOST_AUTO_TEST_CASE(of_two_rim_triangles_with_one_outermost_point_the_known_one
 }
 
 BOOST_AUTO_TEST_CASE(a_face_a_little_above_a_level_wall_finds_its_rim) {
-  std::mt19937 bits(5);
-  Sheet sheet(bits, 4);
-  sheet.axes.setIdentity();
-  sheet.mesh = sheet.make(4);
+  const Sheet sheet(Eigen::Matrix3d::Identity(), 4);
   feeler::FixedVector<Vector, 16> loop;
   for (const Vector& corner : {Vector(0.1, -0.1, 1e-5), Vector(0.4, -0.1, 1e-5), Vector(0.4, 0.1, 1e-5), Vector(0.1, 0.1, 1e-5)})
     loop.push_back(corner);
@@ -184,10 +182,7 @@ BOOST_AUTO_TEST_CASE(a_face_a_little_above_a_level_wall_finds_its_rim) {
 }
 
 BOOST_AUTO_TEST_CASE(of_a_round_face_a_little_above_a_level_wall_the_rim_is_found_however_short_its_sides_are) {
-  std::mt19937 bits(5);
-  Sheet sheet(bits, 4);
-  sheet.axes.setIdentity();
-  sheet.mesh = sheet.make(4);
+  const Sheet sheet(Eigen::Matrix3d::Identity(), 4);
   for (const int corners : {4, 12, 32, 128}) {
     const auto corner = [&](int k) {
       const double angle = 2 * 3.14159265358979 * (k + 0.5) / corners;
@@ -202,10 +197,7 @@ BOOST_AUTO_TEST_CASE(of_a_round_face_a_little_above_a_level_wall_the_rim_is_foun
 
 BOOST_AUTO_TEST_CASE(of_a_face_of_as_many_corners_as_there_is_room_for_each_counts) {
   // A round face whose corners point at the rim one by one: only the tip of that corner is over it.
-  std::mt19937 bits(6);
-  Sheet sheet(bits, 4);
-  sheet.axes.setIdentity();
-  sheet.mesh = sheet.make(4);
+  const Sheet sheet(Eigen::Matrix3d::Identity(), 4);
   constexpr int corners = feeler::OutermostAtRim<double, double>::capacity;
   const double radius = 0.1, step = 2 * 3.14159265358979 / corners, distance = radius * (1 + std::cos(step)) / 2;
   for (const int tip : {0, 1, 64, 127}) {

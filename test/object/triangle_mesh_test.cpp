@@ -67,6 +67,11 @@ Mesh fan(const std::array<double, 6>& heights, int missing = 6) {
   }
   return Mesh(p, t);
 }
+/// Which corner of a triangle of a fan is the origin.
+int tip_of(const Mesh& mesh, int triangle) {
+  const auto& corners = mesh.triangle(triangle);
+  return mesh.vertex(corners[0]).isZero(0) ? 0 : mesh.vertex(corners[1]).isZero(0) ? 1 : 2;
+}
 
 Vector closest_on_segment(const Vector& a, const Vector& b, const Vector& p) {
   const double s = (b - a).squaredNorm() > 0 ? (p - a).dot(b - a) / (b - a).squaredNorm() : 0;
@@ -313,8 +318,7 @@ BOOST_AUTO_TEST_CASE(the_triangle_along_a_direction_has_the_edge_that_points_mos
       return highest;
     };
     for (int start = 0; start < mesh.triangle_count(); ++start) {
-      const auto& corners = mesh.triangle(start);
-      const int corner = mesh.vertex(corners[0]).isZero(0) ? 0 : mesh.vertex(corners[1]).isZero(0) ? 1 : 2;
+      const int corner = tip_of(mesh, start);
       double highest = 0;
       for (int other = 0; other < mesh.triangle_count(); ++other)
         if (other != start) highest = std::max(highest, highest_of(other));
@@ -341,13 +345,12 @@ BOOST_AUTO_TEST_CASE(a_ray_leads_under_a_neighbour_where_a_triangle_covers_it_in
     const Vector view = Vector(unit(bits), unit(bits), unit(bits)).normalized();
     const Vector ray = view.cross(Vector(unit(bits), unit(bits), unit(bits))), upward = view.cross(ray).normalized();
     for (int start = 0; start < mesh.triangle_count(); ++start) {
-      const auto& corners = mesh.triangle(start);
-      const int corner = mesh.vertex(corners[0]).isZero(0) ? 0 : mesh.vertex(corners[1]).isZero(0) ? 1 : 2;
+      const int corner = tip_of(mesh, start);
       bool is_covered = false;
       for (int other = 0; other < mesh.triangle_count(); ++other) {
         if (other == start) continue;
         // ray = α a + β b + γ view, with α, β > 0, of which one rises.
-        const int tip = mesh.vertex(mesh.triangle(other)[0]).isZero(0) ? 0 : mesh.vertex(mesh.triangle(other)[1]).isZero(0) ? 1 : 2;
+        const int tip = tip_of(mesh, other);
         Eigen::Matrix3d basis;
         basis << mesh.corners(other).col((tip + 1) % 3), mesh.corners(other).col((tip + 2) % 3), view;
         const Vector weights = basis.partialPivLu().solve(ray);

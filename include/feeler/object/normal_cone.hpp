@@ -102,19 +102,19 @@ bool vertex_cone_contains(const TriangleMesh<Scalar>& mesh, int vertex, const Ve
 }
 
 /// The other triangles at a corner of a triangle, found by walking around it.
-/// @param visit  with the number of a triangle; false ends the walk
+/// @param visit  `visit(triangle, which of its corners that is)`; false ends the walk
 /// @cost  noexcept, no allocation, at most twice `maximum_cone_valence` triangles
 template <RealScalar Scalar, class Visit>
 void visit_triangles_around(const TriangleMesh<Scalar>& mesh, int triangle, int corner, const Visit& visit) noexcept {
   const int vertex = mesh.triangle(triangle)[std::size_t(corner)];
   for (const int side : {0, 2}) {  // across the edge that leaves the vertex, and, if the surface ends there, across the one that comes to it
-    int current = triangle;
+    int current = triangle, k = corner;
     for (int step = 0; step < maximum_cone_valence; ++step) {
-      const std::array<int, 3>& corners = mesh.triangle(current);
-      const int k = corners[0] == vertex ? 0 : corners[1] == vertex ? 1 : 2;
       current = mesh.topology().neighbour(current, (k + side) % 3);
       if (current < 0) break;
-      if (current == triangle || !visit(current)) return;
+      const std::array<int, 3>& corners = mesh.triangle(current);
+      k = corners[0] == vertex ? 0 : corners[1] == vertex ? 1 : 2;
+      if (current == triangle || !visit(current, k)) return;
     }
   }
 }
@@ -129,7 +129,7 @@ int triangle_along(const TriangleMesh<Scalar>& mesh, int triangle, int corner, c
   const int vertex = mesh.triangle(triangle)[std::size_t(corner)];
   int best = -1;
   Scalar highest(0);
-  visit_triangles_around(mesh, triangle, corner, [&](int current) {
+  visit_triangles_around(mesh, triangle, corner, [&](int current, int) {
     for (const int other : mesh.triangle(current)) {
       if (other == vertex) continue;
       const Vector3<Scalar> along = mesh.vertex(other) - mesh.vertex(vertex);
@@ -154,9 +154,8 @@ bool leads_under_a_neighbour(const TriangleMesh<Scalar>& mesh, int triangle, int
   using std::sqrt;
   const int vertex = mesh.triangle(triangle)[std::size_t(corner)];
   bool is_under = false;
-  visit_triangles_around(mesh, triangle, corner, [&](int current) {
+  visit_triangles_around(mesh, triangle, corner, [&](int current, int k) {
     const std::array<int, 3>& corners = mesh.triangle(current);
-    const int k = corners[0] == vertex ? 0 : corners[1] == vertex ? 1 : 2;
     Vector3<Scalar> upper = mesh.vertex(corners[std::size_t((k + 1) % 3)]) - mesh.vertex(vertex);
     Vector3<Scalar> lower = mesh.vertex(corners[std::size_t((k + 2) % 3)]) - mesh.vertex(vertex);
     if (upward.dot(upper) < upward.dot(lower)) upper.swap(lower);
