@@ -83,19 +83,33 @@ BOOST_AUTO_TEST_CASE(a_search_that_ends_for_want_of_qps_relaxes_by_what_is_surel
 }
 
 BOOST_AUTO_TEST_CASE(a_wall_that_costs_more_than_the_price_gives_way_by_what_the_price_is_short) {
-  // The floor alone, 0.5 mm above the tool, and the hand 1 mm below it: it gives way where the force z − hand falls to the price, and not at all
-  // below where the tool is.
-  Fit fit;
-  fit.problem.gradient[2] = 1e-3;
-  fit.add(along(2, 1), 1e-6, -5e-4);
-  BOOST_TEST(fit.solve(9e-4) > 0);
-  BOOST_TEST(std::abs(fit.solution.step[2]) < 1e-12);
-  fit = {};
-  fit.problem.gradient[2] = 1e-3;
-  fit.add(along(2, 1), 5e-4, 0.0);
-  BOOST_TEST(fit.solve(1.2e-3) > 0);
-  BOOST_TEST(fit.solution.step[2] == 2e-4, boost::test_tools::tolerance(1e-9));
-  BOOST_TEST(fit.rows.relaxation() == 3e-4, boost::test_tools::tolerance(1e-9));
+  // The floor alone, and the hand 1 mm below the tool: the floor gives way to where the force z − hand falls to the price.
+  for (const double soft : {1e-6, 5e-4}) {
+    for (const double price : {9e-4, 8e-4}) {
+      Fit fit;
+      fit.problem.gradient[2] = 1e-3;
+      fit.add(along(2, 1), soft, -5e-4);
+      BOOST_TEST(fit.solve(price) > 0);
+      BOOST_TEST(fit.solution.step[2] == price - 1e-3, boost::test_tools::tolerance(1e-7));
+      BOOST_TEST(fit.rows.relaxation() == soft - (price - 1e-3), boost::test_tools::tolerance(1e-7));
+      BOOST_TEST(!fit.rows.is_hard(0));
+    }
+  }
+}
+
+BOOST_AUTO_TEST_CASE(walls_that_cost_more_than_the_price_at_their_hard_bounds_stay_there_and_tell_so_in_a_few_qps) {
+  // The same floor, and others beside it with more or less to give: the force 1 mm − z is over the price down to the last of them.
+  for (const int others : {0, 1, 5}) {
+    Fit fit;
+    fit.problem.gradient[2] = 1e-3;
+    fit.add(along(2, 1), 1e-6, -5e-4);
+    for (int k = 1; k <= others; ++k) fit.add(along(2, 1), 1e-6, -5e-4 - 1e-5 * k);
+    const int solves = fit.solve(4e-4);
+    BOOST_TEST((0 < solves && solves <= (others == 0 ? 2 : 12)));
+    BOOST_TEST(!fit.rows.is_cut_short());
+    BOOST_TEST(fit.solution.step[2] == -5e-4, boost::test_tools::tolerance(1e-9));
+    BOOST_TEST(fit.rows.is_hard(0));
+  }
 }
 
 BOOST_AUTO_TEST_CASE(what_a_wall_that_gives_way_lacks_before_one_that_does_not_is_known_at_once) {
@@ -138,42 +152,48 @@ BOOST_AUTO_TEST_CASE(random_rows_have_the_relaxation_that_a_search_finds) {
   constexpr unsigned seed = 5;
   BOOST_TEST_MESSAGE("seed " << seed);
   std::mt19937 bits(seed);
-  int relaxed = 0, cut_short = 0;
+  int relaxed = 0, at_hard_bounds = 0, cut_short = 0;
   for (int i = 0; i < 300; ++i) {
     Fit fit;
-    const double price = 1e-3, hard = -1e-5;
-    std::vector<double> soft;
+    const double price = std::vector{1e-3, 1e-4, 3e-5}[std::size_t(i % 3)];
+    std::vector<double> soft, hard;
     fit.problem.gradient << 2e-4 * feeler_test::random_vector(bits), 2e-4 * feeler_test::random_vector(bits);
     const int count = 2 + int(bits() % 20);
+    double most = 0;
     for (int k = 0; k < count; ++k) {
       Vector6<double> row;
       row << feeler_test::random_direction(bits), 0.5 * feeler_test::random_vector(bits);
       soft.push_back(1e-6 * (1 - double(bits() % 1000) / 600));
-      fit.add(row, soft.back(), hard);
+      hard.push_back(std::min(soft.back(), -1e-8 * double(bits() % 1000)));
+      fit.add(row, soft.back(), hard.back());
+      most = std::max(most, soft.back() - hard.back());
     }
     const int solves = fit.solve(price);
     BOOST_TEST_REQUIRE(solves > 0);
     if (solves == 24) {  // as many as it may: what it has is feasible
       ++cut_short;
-      for (int k = 0; k < count; ++k) BOOST_TEST(fit.problem.rows[std::size_t(k)].dot(fit.solution.step) >= hard - 1e-12);
+      for (int k = 0; k < count; ++k) BOOST_TEST(fit.problem.rows[std::size_t(k)].dot(fit.solution.step) >= hard[std::size_t(k)] - 1e-12);
       continue;
     }
     // min ½ |d|² + gᵀ d + price ξ is convex in ξ: no other does better, but for a thousandth of the price.
     const auto merit = [&](double relaxation) {
-      for (int k = 0; k < count; ++k) fit.problem.bounds[std::size_t(k)] = std::max(hard, soft[std::size_t(k)] - relaxation);
+      for (int k = 0; k < count; ++k) fit.problem.bounds[std::size_t(k)] = std::max(hard[std::size_t(k)], soft[std::size_t(k)] - relaxation);
       QpSolution<double> solution;
       if (fit.solver.solve(fit.problem, solution) != QpStatus::optimal) return std::numeric_limits<double>::infinity();
       return solution.step.squaredNorm() / 2 + fit.problem.gradient.dot(solution.step) + price * relaxation;
     };
     const double found = fit.solution.step.squaredNorm() / 2 + fit.problem.gradient.dot(fit.solution.step) + price * fit.rows.relaxation();
     for (int k = 0; k <= 400; ++k)
-      BOOST_TEST(found <= merit(fit.rows.relaxation_at_rest() * k / 400) + 2e-3 * price * fit.rows.relaxation_at_rest(),
-                 "problem " << i << " at " << k << ": " << found << " > " << merit(fit.rows.relaxation_at_rest() * k / 400) << ", "
-                            << fit.rows.relaxation() << " of " << fit.rows.relaxation_at_rest());
+      BOOST_TEST(found <= merit(most * k / 400) + 2e-3 * price * most, "problem " << i << " at " << k << ": " << found << " > "
+                                                                                  << merit(most * k / 400) << ", " << fit.rows.relaxation() << " of "
+                                                                                  << most);
     relaxed += fit.rows.relaxation() > 0;
+    const auto& active = fit.solution.active;
+    at_hard_bounds += std::any_of(active.begin(), active.end(), [&](const auto& a) { return fit.rows.is_hard(a.row); });
   }
   BOOST_TEST(relaxed > 50);
-  BOOST_TEST(cut_short < 150);
+  BOOST_TEST(at_hard_bounds > 50);
+  BOOST_TEST(cut_short == 0);
 }
 
 BOOST_AUTO_TEST_SUITE_END()

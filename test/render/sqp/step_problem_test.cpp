@@ -94,6 +94,32 @@ BOOST_AUTO_TEST_CASE(between_two_walls_a_step_leaves_what_its_certificate_requir
   }
 }
 
+BOOST_AUTO_TEST_CASE(a_wedge_that_costs_more_than_the_margin_is_worth_leaves_a_tenth_of_it_in_two_steps) {
+  // Two walls tilted by an angle a, a margin away, and the hand straight below: the contact forces add up to that of the hand over sin a, and the price
+  // is 24 times the force of the hand, which is so at 2.388 degrees. A step goes on to a fifth of the margin, the next to a tenth.
+  constexpr double margin = 1e-6, degree = 0.017453292519943295;
+  const Clearance<double> clearance(margin, 4e-4);
+  for (const double angle : {1.0, 2.0, 2.3, 2.5, 5.0, 40.0}) {
+    ContactRow<double> left, right;
+    left.normal = Eigen::Vector3d(std::cos(angle * degree), 0, std::sin(angle * degree));
+    right.normal = Eigen::Vector3d(-left.normal.x(), 0, left.normal.z());
+    const bool is_wedged = angle < 2.4;
+    double gap = margin;
+    for (const double left_then : {0.2, 0.1, 0.1}) {
+      StepProblem<DualActiveSet<double>, 8> problem;
+      left.gap = right.gap = gap;
+      BOOST_TEST_REQUIRE(problem.add(left, {clearance.to_leave(gap)}));
+      BOOST_TEST_REQUIRE(problem.add(right, {clearance.to_leave(gap)}));
+      problem.solve_gauss_newton(Metric<double>(), {{0, 0, 1e-3}, Eigen::Vector3d::Zero()}, margin);
+      gap = problem.gap_after(0);
+      BOOST_TEST_CONTEXT(angle << " degrees, to leave " << left_then) {
+        BOOST_TEST(gap == (is_wedged ? left_then * margin : margin), boost::test_tools::tolerance(1e-5));
+        BOOST_TEST(problem.rests_on_the_way(clearance.kept + clearance.none()) == (is_wedged && left_then > 0.1));
+      }
+    }
+  }
+}
+
 BOOST_AUTO_TEST_CASE(an_overlap_of_rounding_is_not_won_back_where_two_walls_part_metres_away) {
   // A slot that overlaps the tool by a picometre or two, and widens by a tenth of a picometre a metre: along it there is room for the tool 20 m away.
   constexpr double margin = 1e-6;

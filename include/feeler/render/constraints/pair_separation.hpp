@@ -87,6 +87,13 @@ class PairSeparation {
     return true;
   }
 
+  /// The same with the normal that a row of the pair has there, where a step is to leave all of what is left of the margin, or nearly: the plane of the
+  /// last query is as it was before the tool turned, and would give a hair of it away.
+  void try_plane_of_row(const Scene& scene, Pair& pair, const Vector3<Scalar>& normal, int& work) noexcept {
+    const auto& clearance = scene.clearance();
+    if (pair.slack > clearance.negligible() && pair.slack < 2 * clearance.kept) try_plane_at_start(scene, pair, normal, pair.slack, work);
+  }
+
   /// Whether the plane of a pair parts it from the tool by more than the contact distance, and at the start is its plane again; or it is beyond
   /// `reach` [m].
   bool try_own_plane(const Scene& scene, Pair& pair, Scalar reach, int& work) noexcept {

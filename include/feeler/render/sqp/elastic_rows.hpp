@@ -22,8 +22,9 @@ namespace feeler {
 /// multipliers of soft rows add up to no more than c. As it counts the largest violation, rows that repeat others change nothing.
 ///
 /// The relaxation ξ grows from 0 to the least that will do. A QP without a solution names rows that contradict each other, Σ yₖ aₖ = 0 with y ≥ 0.
-/// So Σ yₖ boundₖ ≤ 0 must hold, which tells how much ξ must be. Where multipliers add up to more than c, they fall by 1ᵀ(A H⁻¹ Aᵀ)⁻¹ 1 for each unit
-/// of ξ, until other rows are active.
+/// So Σ yₖ boundₖ ≤ 0 must hold, which tells how much ξ must be. Where the multipliers of soft rows add up to more than c, they fall by
+/// 1ᵀ(A H⁻¹ Aᵀ)⁻¹ 1 for each unit of ξ, until other rows are active, and by its whole multiplier where a row reaches its hard bound: ξ is where their
+/// sum is c, or falls past it.
 template <RealScalar ScalarType, int row_capacity>
 class ElasticRows {
  public:
@@ -41,12 +42,15 @@ class ElasticRows {
       rows_[as_index(k)].hard /= unit;
     }
     relaxation_ /= unit;
+    tolerance_ /= unit;
   }
 
   /// ξ of the last solution [m].
   Scalar relaxation() const noexcept { return relaxation_; }
   /// Whether the QPs allowed, fewer than `most_solves`, did not suffice: less relaxation may do.
   bool is_cut_short() const noexcept { return is_cut_short_; }
+  /// Whether a row has its hard bound: more relaxation would not lower it.
+  bool is_hard(int k) const noexcept { return !is_soft(k); }
   /// The relaxation that a step of zero needs [m].
   Scalar relaxation_at_rest() const noexcept {
     Scalar most(0);
@@ -57,7 +61,7 @@ class ElasticRows {
   /// @param problem  its Hessian, gradient and rows are given; its bounds become those that hold
   /// @param price    c
   /// @param least    smallest change of ξ worth a QP: some tolerances of the solver [m]
-  /// @param allowed  QPs, `most_solves` at most; with the last one rows are relaxed by all that may be needed
+  /// @param allowed  QPs, `most_solves` at most; with the last one rows are relaxed by what is surely enough
   /// @param start    rows that are likely to be active
   /// @return  QPs solved, or 0 where not even the hard bounds have a solution, to the solver's tolerance
   /// @cost    noexcept, no allocation; one QP where nothing is to be relaxed
@@ -65,14 +69,16 @@ class ElasticRows {
   int solve(Solver& solver, QpProblem<Scalar>& problem, Scalar price, Scalar least, int allowed, const WarmStart& start,
             QpSolution<Scalar>& solution) noexcept {
     const int last = (std::min)(allowed, most_solves);
-    const Scalar most = relaxation_at_rest();
+    const Scalar most = last_kink();
     Search search{.price = price, .least = least, .most = most, .high = most};
+    tolerance_ = least;
     relaxation_ = Scalar(0);
     is_cut_short_ = false;
     for (int solves = 1; solves <= last; ++solves) {
       const bool is_last = solves == last;
       if (is_last) {
-        relaxation_ = search.high;
+        const Scalar surely_enough = (std::min)(relaxation_at_rest(), search.high);
+        relaxation_ = search.low < surely_enough ? surely_enough : search.high;
         is_cut_short_ = allowed < most_solves;
       }
       load(problem);
@@ -94,9 +100,10 @@ class ElasticRows {
   /// The search for the least relaxation that will do.
   struct Search {
     Scalar price, least;  // as `solve` has them
-    Scalar most;  // that may be needed [m]
-    Scalar low = Scalar(0), high = Scalar(0);  // the relaxation lies between [m]
+    Scalar most;  // with more no row is relaxed further [m]
+    Scalar low = Scalar(0), high;  // the relaxation lies between [m]
     bool is_least = true;  // with less than the one at hand there is no solution
+    bool is_high_enough = false;  // the multipliers there said so: else it has not been tried
   };
 
   /// Rows that do not depend on each other, but for rounding.
@@ -129,7 +136,16 @@ class ElasticRows {
     const Row& row = rows_[as_index(k)];
     return (std::max)(row.hard, row.soft - relaxation_);
   }
-  bool is_soft(int k) const noexcept { return bound(k) > rows_[as_index(k)].hard; }
+  /// Whether more relaxation would lower the bound of a row.
+  bool is_soft(int k) const noexcept { return kink(k) > relaxation_ + tolerance_; }
+  /// The relaxation with which a row comes to its hard bound.
+  Scalar kink(int k) const noexcept { return rows_[as_index(k)].soft - rows_[as_index(k)].hard; }
+  /// With more no row is relaxed further [m].
+  Scalar last_kink() const noexcept {
+    Scalar most(0);
+    for (int k = 0; k < size_; ++k) most = (std::max)(most, kink(k));
+    return most;
+  }
   void load(QpProblem<Scalar>& problem) const noexcept {
     for (int k = 0; k < size_; ++k) problem.bounds[as_index(k)] = bound(k);
   }
@@ -143,26 +159,35 @@ class ElasticRows {
   }
 
   /// Where the multipliers of an optimum tell that less will do, or that more is cheaper, chooses what to solve with next; false where neither is so.
+  /// As long as the same rows are active and none comes to its hard bound, or leaves it, their sum is linear in ξ: a secant finds where it is the price.
   bool follow_multipliers(const QpProblem<Scalar>& problem, const QpSolution<Scalar>& solution, Search& search) noexcept {
-    const Scalar sum = sum_of_soft(solution);
-    if (sum <= search.price) {
-      if (search.is_least || is_close(sum, search)) return false;
-      search.high = relaxation_;
-    } else {
+    Scalar above(0), below(0);  // the sums with a little more ξ, and with a little less
+    Scalar next_kink = search.high, last_kink = search.low;
+    for (const auto& active : solution.active) {
+      const Scalar kink = this->kink(active.row);
+      if (kink > relaxation_ + tolerance_) {
+        above += active.multiplier;
+        next_kink = (std::min)(next_kink, kink);
+      }
+      if (kink > relaxation_ - tolerance_) below += active.multiplier;
+      else last_kink = (std::max)(last_kink, kink);
+    }
+    const Scalar near = (std::max)(search.least, search.most / 1000);
+    Scalar next;
+    if (above > search.price) {
       if (!(relaxation_ < search.high)) return false;
       search.low = relaxation_;
+      next = (std::min)(relaxation_ + (std::max)((above - search.price) / fall_of_sum(problem, solution), search.least), next_kink);
+    } else {
+      if (search.is_least || below >= search.price - search.price / 1000 || relaxation_ - search.low <= near) return false;
+      search.high = relaxation_;
+      search.is_high_enough = true;
+      next = (std::max)(relaxation_ - (search.price - below) / fall_of_sum(problem, solution), last_kink);
     }
-    // Where the same rows stay active the next sum is the price; else in the middle of what is known.
     search.is_least = false;
-    const Scalar next =
-        sum > search.price ? search.low + (std::max)((sum - search.price) / fall_of_sum(problem, solution), search.least) : search.high;
-    relaxation_ = next < search.high ? next : (search.low + search.high) / 2;
+    const bool is_between = search.low < next && (next < search.high || !search.is_high_enough);
+    relaxation_ = is_between ? next : (search.low + search.high) / 2;
     return true;
-  }
-  /// Whether less relaxation than that at hand gains next to nothing.
-  /// @param sum  of the multipliers of soft rows, at most the price
-  bool is_close(Scalar sum, const Search& search) const noexcept {
-    return sum >= search.price - search.price / 1000 || !(relaxation_ - search.low > (std::max)(search.least, search.most / 1000));
   }
   /// By how much more rows that contradict each other must be relaxed.
   Scalar lack(const QpProblem<Scalar>& problem, const QpSolution<Scalar>& solution) const noexcept {
@@ -181,14 +206,6 @@ class ElasticRows {
       if (is_soft(k)) soft += weight;
     }
     return soft > Scalar(0) ? lacking / soft : Scalar(0);
-  }
-
-  Scalar sum_of_soft(const QpSolution<Scalar>& solution) const noexcept {
-    Scalar sum(0);
-    for (const auto& active : solution.active) {
-      if (is_soft(active.row)) sum += active.multiplier;
-    }
-    return sum;
   }
 
   /// By how much the multipliers of soft rows fall for each unit of ξ, as long as the same rows are active; positive.
@@ -214,6 +231,7 @@ class ElasticRows {
 
   int size_ = 0;
   Scalar relaxation_ = Scalar(0);
+  Scalar tolerance_ = Scalar(0);  // of the kinks [m]
   bool is_cut_short_ = false;
   std::array<Row, std::size_t(row_capacity)> rows_;
 };

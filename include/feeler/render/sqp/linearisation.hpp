@@ -1,6 +1,7 @@
 // The working set and its rows, at one pose at a time: measured only where a step may meet them, and only where the tool has moved.
 #pragma once
 
+#include <algorithm>
 #include <limits>
 #include <optional>
 
@@ -92,15 +93,15 @@ class Linearisation {
       if (!separation_.try_plane_at_start(scene, pair, pair.last_normal, scene.clearance().required(pair.slack), tick.work)) return false;
       pair.is_ghost = pair.state == PairState::ghost;
     }
-    const bool are_carried = carry_rows(scene, motion, tick, [&](const Row& row, const Pair& pair) {
+    const bool are_carried = carry_rows(scene, motion, tick, [&](const Row& row, Pair& pair) {
       if (pair.state != PairState::has_rows) return false;
+      separation_.try_plane_of_row(scene, pair, row.normal, tick.work);
       keep_if_touching(scene, row, pair);
       return true;
     });
     if (!are_carried) return false;
-    for (Pair& pair : pairs_) {
+    for (Pair& pair : pairs_)
       if (pair.state == PairState::left_out && !measure_if_near(scene, pair, tick, limit)) return false;
-    }
     return finish(scene, tick, limit);
   }
 
@@ -120,8 +121,7 @@ class Linearisation {
     if (problem_.rests_on_kept()) return false;
     const Twist<Scalar> motion = scene.idle_turns().motion_between(separation_.pose(), pose);
     separation_.put_at(pose, false);
-    leaves_out_pairs_ = false;
-    for (const Pair& pair : pairs_) leaves_out_pairs_ = leaves_out_pairs_ || pair.state == PairState::left_out;
+    leaves_out_pairs_ = std::any_of(pairs_.begin(), pairs_.end(), [](const Pair& pair) { return pair.state == PairState::left_out; });
     return carry_rows(scene, motion, tick, [](const Row&, const Pair&) { return true; });
   }
 

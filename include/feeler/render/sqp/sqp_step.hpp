@@ -20,6 +20,7 @@ struct StepTask {
   Twist<Scalar> off;        ///< from where the motion aims, of the linearised pose
   Scalar trust;             ///< the trust region [m]
   bool is_capped;           ///< it cut an earlier step: the tool is only to come free
+  Scalar margin;            ///< that rows are to have [m]
 };
 
 /// A step from the pose of linearisation.
@@ -102,9 +103,9 @@ class SqpStep {
   void solve_gauss_newton() noexcept {
     limit_solves();
     if (task_.is_capped) {
-      problem().restore(scene_.metric(), scene_.margin());
+      problem().restore(scene_.metric(), task_.margin);
     } else {
-      problem().solve_gauss_newton(scene_.metric(), task_.off, scene_.margin());
+      problem().solve_gauss_newton(scene_.metric(), task_.off, task_.margin);
     }
     tick_.work += problem().solves();
   }
@@ -120,7 +121,7 @@ class SqpStep {
   bool solve_newton_by_guess() noexcept {
     using Guess = typename Rows::Problem::Guess;
     limit_solves();
-    const Guess guess = problem().solve_newton_by_guess(scene_.metric(), task_.off, scene_.margin());
+    const Guess guess = problem().solve_newton_by_guess(scene_.metric(), task_.off, task_.margin);
     if (guess == Guess::none) return false;
     tick_.work += problem().solves();
     if (guess == Guess::wrong || rows_.add_crossed(scene_, trusted_step(), tick_, budget_.limit())) return false;

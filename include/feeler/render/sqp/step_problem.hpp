@@ -101,6 +101,11 @@ class StepProblem {
   bool rests_on_kept() const noexcept {
     return std::any_of(solution_.active.begin(), solution_.active.end(), [this](const auto& active) { return active.row >= rows_.size() - kept_; });
   }
+  /// Whether a row stopped the last step at a hard bound farther away than `kept` [m]: the next step may pass it.
+  bool rests_on_the_way(Scalar kept) const noexcept {
+    return std::any_of(solution_.active.begin(), solution_.active.end(),
+                       [&](const auto& active) { return elastic_.is_hard(active.row) && gap_after(active.row) > kept; });
+  }
   /// Whether the contacts that stopped the last step are still between the same features after it.
   bool keeps_features() const noexcept {
     return std::all_of(solution_.active.begin(), solution_.active.end(),

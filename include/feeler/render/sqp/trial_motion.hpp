@@ -77,7 +77,8 @@ class TrialMotionSearch {
   bool find(const Scene& scene, int most, const StepLimits<Scalar>& limits, WorkBudget& budget, Tick<MeshScalar>& tick) noexcept {
     for (; rounds_.count < most; ++rounds_.count) {
       if (!linearise(scene, most > 1, reach_of_step(scene, limits), budget, tick)) return false;
-      const StepTask<Scalar> task{start_, rounds_.pose, scene.idle_turns().motion_between(aim_, rounds_.pose), limits.trust(), motion_.is_capped};
+      const Twist<Scalar> off = scene.idle_turns().motion_between(aim_, rounds_.pose);
+      const StepTask<Scalar> task{start_, rounds_.pose, off, limits.trust(), motion_.is_capped, scene.margin() - rounds_.left_out};
       if (take_step(scene, task, limits, budget, tick)) break;
     }
     return true;
@@ -92,6 +93,7 @@ class TrialMotionSearch {
     bool assumes_valleys = true;
     bool is_taken_back = false;  // the second step took back the first
     Scalar first = 0, previous = 0;  // lengths of steps [m]
+    Scalar left_out = 0;  // of the margin, by the step that the trust region cut: what comes free after it leaves out as much [m]
   };
 
   /// Rows where the motion starts, or where its last step ended; false where there is no work left to measure all pairs, and then to solve for a
@@ -140,6 +142,7 @@ class TrialMotionSearch {
     const Scalar length = scene.length_of(motion_.motion, start_);
     if (length > longest && !motion_.is_capped) {
       motion_.is_capped = true;
+      rounds_.left_out = linearisation_.problem().relaxation();
       motion_.motion = motion_.motion * (longest / length);
       rounds_.pose = scene.idle_turns().moved(start_, motion_.motion);
       return motion_.is_free ||
@@ -181,7 +184,8 @@ class TrialMotionSearch {
                       (rounds_.count > 0 || linearisation_.keeps(scene, holding_distance(scene), rounds_.pose, tick.work));
     motion_.is_taken_back = rounds_.is_taken_back && rests_on_kept && last < scene.very_short() && !motion_.is_capped;
     motion_.goes_back = rests_on_kept && length < rounds_.first / 4 && !motion_.is_capped;
-    const bool holds = is_short && rounds_.is_measured && !rests_on_assumption && !rests_on_kept && problem.keeps_features();
+    const bool holds = is_short && rounds_.is_measured && !rests_on_assumption && !rests_on_kept && problem.keeps_features() &&
+                       !problem.rests_on_the_way(scene.clearance().kept + scene.clearance().none());
     motion_.is_settled = (holds && !problem.is_cut_short()) || motion_.is_home;
     return motion_.is_settled || motion_.is_capped || (is_short && rests_on_kept);
   }
