@@ -2,6 +2,7 @@
 
 #include <boost/test/unit_test.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <random>
 
@@ -53,6 +54,24 @@ BOOST_AUTO_TEST_CASE(planes_around_a_valley_are_those_of_all_its_faces_each_once
   const SurfaceFeatures<double> pit(fan(3, 0.5).divided().mesh());
   for (int v = 0; v < pit.vertex_count(); ++v)
     if (pit.vertex(v).point.norm() < 0.5) BOOST_TEST(planes_around(pit, {FeatureKind::vertex, v}, SurfaceSide::front).size() == 3);
+}
+
+BOOST_AUTO_TEST_CASE(a_triangle_without_area_adds_no_plane_to_those_around_its_corner) {
+  const Soup object = roof(1.0).divided();
+  const auto mesh = object.mesh();
+  for (int v = 0; v < mesh.vertex_count(); ++v) {
+    const Vector place = mesh.vertex(v);
+    Soup with = object;
+    const int there = int(std::find(object.vertices.begin(), object.vertices.end(), place) - object.vertices.begin());
+    with.triangles.push_back({there, there, there});
+    const SurfaceFeatures<double> surface(with.mesh());
+    for (int w = 0; w < surface.vertex_count(); ++w) {
+      if (surface.vertex(w).point != place) continue;
+      const auto planes = planes_around(surface, {FeatureKind::vertex, w}, SurfaceSide::front);
+      BOOST_TEST(planes.size() == (place.x() == 0 ? 2 : 1));
+      for (const auto& plane : planes) BOOST_TEST(plane.normal.norm() == 1.0, boost::test_tools::tolerance(1e-12));
+    }
+  }
 }
 
 BOOST_AUTO_TEST_CASE(points_on_the_free_side_of_a_valley_or_a_ridge_are_in_front) {
