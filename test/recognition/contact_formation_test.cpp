@@ -2,7 +2,11 @@
 
 #include <boost/test/unit_test.hpp>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstddef>
+#include <random>
 #include <string>
 #include <vector>
 
@@ -88,6 +92,37 @@ BOOST_AUTO_TEST_CASE(formations_are_compared_by_features_or_by_types) {
   BOOST_TEST(!same_types(a, b));
   b.contacts.pop_back();
   BOOST_TEST(!same_features(a, b));
+}
+
+BOOST_AUTO_TEST_CASE(contacts_are_sorted_by_the_feature_of_the_tool_and_then_by_that_of_the_object) {
+  std::mt19937 bits(1);
+  for (int round = 0; round < 100; ++round) {
+    ContactFormation<double> formation;
+    // As kinds and numbers are written: kind, number, kind, number.
+    std::vector<std::array<int, 4>> expected;
+    for (int i = 0; i < 20; ++i) {
+      const std::array<int, 4> features{int(bits() % 3), int(bits() % 2), int(bits() % 3), int(bits() % 4)};
+      formation.contacts.push_back(contact(FeatureKind(features[0]), features[1], FeatureKind(features[2]), features[3]));
+      expected.push_back(features);
+    }
+    std::sort(expected.begin(), expected.end());
+    formation.sort();
+    for (int i = 0; i < formation.size(); ++i) {
+      const auto& c = formation[i];
+      BOOST_TEST((std::array<int, 4>{int(c.tool.kind), c.tool.index, int(c.object.kind), c.object.index} == expected[std::size_t(i)]));
+    }
+  }
+}
+
+BOOST_AUTO_TEST_CASE(a_formation_is_complete_only_if_nothing_was_dropped_of_any_kind) {
+  ContactFormation<double> formation;
+  BOOST_TEST(formation.is_complete());
+  for (int ContactFormation<double>::* dropped :
+       {&ContactFormation<double>::dropped_contacts, &ContactFormation<double>::dropped_witnesses, &ContactFormation<double>::dropped_triangles}) {
+    formation.*dropped = 1;
+    BOOST_TEST(!formation.is_complete());
+    formation.*dropped = 0;
+  }
 }
 
 BOOST_AUTO_TEST_CASE(tracker_tells_switches_and_keeps_quiet_while_a_contact_slides) {
