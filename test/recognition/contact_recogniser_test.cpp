@@ -343,6 +343,45 @@ BOOST_AUTO_TEST_CASE(cone_shaped_tool_in_a_square_hole_touches_its_rims_and_not_
   BOOST_TEST(count(formation, 2) == 4);
   BOOST_TEST(formation.region_count == 4);
 }
+BOOST_AUTO_TEST_CASE(regions_are_numbered_in_the_order_of_the_formation) {
+  // One face of a box on plates that are not joined: each is a region, and no contact has the number of a later one.
+  for (int plates = 1; plates < 20; plates += plates % 7 == 6 ? 2 : 1) {
+    Soup comb;
+    for (int i = 0; i < plates; ++i) {
+      const int first = int(comb.vertices.size());
+      const double x = 0.01 * ((7 * i) % plates);  // in another order than they stand in
+      comb.vertices.insert(comb.vertices.end(), {{x, -0.1, 0}, {x + 0.005, -0.1, 0}, {x + 0.005, 0.1, 0}, {x, 0.1, 0}});
+      comb.triangles.push_back({first, first + 1, first + 2});
+      comb.triangles.push_back({first, first + 2, first + 3});
+    }
+    const auto formation = with_box(comb, {0.6, 0.2, 0.1}, {{0, 0, 0.1}, Eigen::Quaterniond::Identity()});
+    BOOST_TEST_INFO_SCOPE(text(formation));
+    BOOST_TEST(formation.region_count == plates);
+    int next = 0;
+    for (const auto& contact : formation) {
+      BOOST_TEST(contact.region <= next);
+      next = std::max(next, contact.region + 1);
+    }
+    BOOST_TEST(next == formation.region_count);
+  }
+}
+BOOST_AUTO_TEST_CASE(no_two_contacts_are_of_the_same_features_where_tools_or_valleys_are_as_small_as_the_tolerance) {
+  std::mt19937 bits(7);
+  int several = 0;
+  for (int round = 0; round < 1000; ++round) {
+    const double slope = magnitude(bits, -6, 0), size = magnitude(bits, -6, -3);
+    const Soup object = below(bits, 2) == 0 ? roof(slope) : fan(3 + below(bits, 4), slope);
+    const Box box = scaled(random_box(bits), 10 * size);
+    const FeatureKind kind = FeatureKind(below(bits, 3));
+    const int number = below(bits, kind == FeatureKind::vertex ? 8 : kind == FeatureKind::edge ? 12 : 6);
+    const Vector place = size * Vector(unit(bits), unit(bits), 0);
+    const auto formation = recognised(object, box, set_down(tool_feature(box, {kind, number}), place, 2e-6 * unit(bits), 3 * unit(bits)));
+    BOOST_TEST_INFO_SCOPE(text(formation));
+    if (formation.size() > 1) ++several;
+    for (int i = 1; i < formation.size(); ++i) BOOST_TEST(!formation[i].has_features_of(formation[i - 1]));  // they are sorted
+  }
+  BOOST_TEST(several > 100);
+}
 BOOST_AUTO_TEST_CASE(nothing_touches_beyond_the_tolerance_or_where_the_pose_is_not_finite) {
   const Box box({0.1, 0.1, 0.1});
   const auto mesh = floor_object().mesh();
