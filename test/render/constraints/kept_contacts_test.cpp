@@ -3,6 +3,7 @@
 
 #include <boost/test/unit_test.hpp>
 
+#include <cstddef>
 #include <vector>
 
 BOOST_AUTO_TEST_SUITE(kept_contacts)
@@ -17,7 +18,9 @@ constexpr double margin = 1e-6;
 /// A problem that takes the rows of floors.
 struct Problem {
   std::vector<double> gaps, required;
+  std::size_t room = 100;
   bool keep(const Row& row, double required_gap) {
+    if (gaps.size() == room) return false;
     gaps.push_back(row.gap);
     required.push_back(required_gap);
     return true;
@@ -63,6 +66,19 @@ BOOST_AUTO_TEST_CASE(a_row_is_kept_once_until_it_is_released_and_as_it_is_where_
   BOOST_TEST(problem.required[0] == 0.25 * margin);
   contacts.clear();
   BOOST_TEST(!contacts.keep_broken(so_far, down(margin), margin, problem));
+}
+
+BOOST_AUTO_TEST_CASE(what_there_is_no_room_for_is_not_kept_and_takes_nothing_back_of_what_is) {
+  for (const std::size_t room : {std::size_t(0), std::size_t(1), std::size_t(2)}) {
+    KeptContacts<Row, 4> contacts;
+    Row floor;
+    floor.gap = margin;
+    for (int i = 0; i < 2; ++i) contacts.add(floor, 0.0);
+    Problem problem;
+    problem.room = room;
+    BOOST_TEST(contacts.keep_broken([] { return down(0); }, down(margin), margin, problem) == (room > 0));
+    BOOST_TEST(problem.gaps.size() == room);
+  }
 }
 
 BOOST_AUTO_TEST_SUITE_END()
