@@ -108,4 +108,16 @@ BOOST_AUTO_TEST_CASE(a_blocker_that_touches_and_repeats_others_is_to_be_measured
   BOOST_TEST(room.pairs[0].unused_ticks == 0);
 }
 
+BOOST_AUTO_TEST_CASE(what_was_left_out_is_not_new_where_something_that_touches_was_met_too) {
+  for (const bool is_touching_first : {true, false}) {
+    Room room;
+    room.add(0, 1e-7);
+    room.add(2, 1e-3).state = PairState::left_out;
+    SweepResult<double> result;
+    result.add({.triangle = is_touching_first ? 0 : 2});
+    result.add({.triangle = is_touching_first ? 2 : 0});
+    BOOST_TEST(!take_in_blockers(room.pairs, room.scene, result));
+  }
+}
+
 BOOST_AUTO_TEST_SUITE_END()
