@@ -53,4 +53,21 @@ BOOST_AUTO_TEST_CASE(what_stopped_a_step_is_kept_where_that_ended_but_for_what_w
   BOOST_TEST(problem.row_count() == 2);
 }
 
+BOOST_AUTO_TEST_CASE(a_row_was_added_also_where_there_is_no_room_for_the_next_one) {
+  const Vector3<double> x = Vector3<double>::UnitX(), z = Vector3<double>::UnitZ();
+  const Twist<double> off{{1e-3, 0, 1e-3}, Vector3<double>::Zero()};
+  Problem problem;
+  problem.add(wall(x, 1e-6), {0.0});
+  problem.add(wall(z, 3e-6), {0.0});
+  problem.solve_gauss_newton(Metric<double>(), off, 0.0);
+  ActiveRows<Row, 6> stops;
+  stops.remember(Twist<double>::from_vector(problem.solution().step), problem);
+  for (const int room : {0, 1, 2}) {
+    problem.clear();
+    for (int k = 0; k < Problem::row_capacity - room; ++k) problem.add(wall(-x, 1e-3 * k), {0.0});
+    BOOST_TEST(stops.keep_in(problem, [](const Row&) { return 0.0; }) == (room > 0));
+    BOOST_TEST(problem.row_count() == Problem::row_capacity);
+  }
+}
+
 BOOST_AUTO_TEST_SUITE_END()
