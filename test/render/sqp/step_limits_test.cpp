@@ -94,4 +94,21 @@ BOOST_AUTO_TEST_CASE(after_a_reset_nothing_is_left_of_a_long_slide) {
   BOOST_TEST(limits.trust() == 1);
 }
 
+BOOST_AUTO_TEST_CASE(motions_shorter_than_the_radius_are_no_part_of_a_long_slide) {
+  for (const int work : {little, more}) {
+    Limits limits = with_radius(1);
+    limits.narrow(1 / 16.0);
+    for (const double expected : {1 / 8.0, 1 / 4.0, 1 / 2.0, 1.0}) {
+      limits.widen(work);
+      BOOST_TEST(limits.trust() == expected);
+    }
+    for (int i = 0; i < (work == little ? 0 : 3); ++i) {
+      limits.widen(work);
+      BOOST_TEST(limits.trust() == 1);
+    }
+    limits.widen(work);
+    BOOST_TEST(limits.trust() == 2);
+  }
+}
+
 BOOST_AUTO_TEST_SUITE_END()
