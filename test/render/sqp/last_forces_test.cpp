@@ -3,6 +3,8 @@
 
 #include <boost/test/unit_test.hpp>
 
+#include <cmath>
+
 #include "feeler/contact/contact_row.hpp"
 
 BOOST_AUTO_TEST_SUITE(last_forces)
@@ -54,6 +56,22 @@ BOOST_AUTO_TEST_CASE(a_contact_is_found_again_in_any_order_as_the_row_most_like_
   BOOST_TEST(!found({}));
   forces.clear();
   BOOST_TEST(forces.empty());
+}
+
+BOOST_AUTO_TEST_CASE(a_direction_is_off_by_as_much_as_a_place_on_the_scale_of_the_arm) {
+  // A tenth of a radian is as far as a tenth of the arm, whatever the unit of length.
+  const Eigen::Vector3d x = Eigen::Vector3d::UnitX(), y = Eigen::Vector3d::UnitY(), z = Eigen::Vector3d::UnitZ();
+  for (const double arm : {1e-3, 1.0, 1e3}) {
+    LastForces<Row> forces;
+    LastForces<Row>::Active active;
+    active.push_back({0, 0.5});
+    forces.remember(active, rows_of({row_at(arm * x)}));
+    for (const double angle : {0.05, 0.2}) {
+      const Row turned = row_at(arm * x, std::cos(angle) * z + std::sin(angle) * y), beside = row_at(arm * x + 0.1 * arm * y);
+      BOOST_TEST_REQUIRE(forces.find(rows_of({turned, beside}), active));
+      BOOST_TEST(active[0].row == (angle < 0.1 ? 0 : 1), "arm " << arm << ", angle " << angle);
+    }
+  }
 }
 
 BOOST_AUTO_TEST_SUITE_END()
