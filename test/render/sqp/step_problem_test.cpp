@@ -72,6 +72,21 @@ BOOST_AUTO_TEST_CASE(where_the_tool_is_about_to_slip_off_the_step_is_finite_and_
   }
 }
 
+BOOST_AUTO_TEST_CASE(where_the_tool_is_about_to_slip_off_as_little_of_the_metric_is_mixed_in_as_leaves_an_eightieth_of_it) {
+  // Along the slide the Lagrangian is 1 − f, and s of it with 1 − s of the metric 1 − s f.
+  Problem problem;
+  const Eigen::Vector3d hand(2e-4, 0, -1e-3);
+  for (const double falls_off : {0.99, 1.0, 1.04, 1.06, 1.3, 1.4, 1.9, 2.1, 3.0, 3.9, 4.1, 500.0}) {
+    double along = 1;  // the metric alone, where no share will do
+    for (const double share : {1.0 / 4, 1.0 / 2, 3.0 / 4, 15.0 / 16})
+      if (1 - share * falls_off > 1.0 / 80) along = 1 - share * falls_off;
+    Matrix6<double> bend = Matrix6<double>::Zero();
+    bend(0, 0) = falls_off / -hand.z();
+    BOOST_TEST(step_of(problem, 0.0, hand, bend)[0] == hand.x() / along, boost::test_tools::tolerance(1e-6));
+    BOOST_TEST(!problem.is_newton());
+  }
+}
+
 BOOST_AUTO_TEST_CASE(between_two_walls_a_step_leaves_what_its_certificate_requires_however_little_there_is) {
   // As far from the wall below as from that above, with less than two margins between them; the hand is far below.
   constexpr double margin = 1e-6, tolerance = 2.5e-13;  // the solver's
