@@ -116,6 +116,18 @@ BOOST_AUTO_TEST_CASE(a_pose_that_is_not_finite_keeps_the_last_pose_and_wrench) {
   BOOST_TEST(pose_error(before.graphic_pose, renderer.tick().graphic_pose).at(0.02) <= 1e-7);
 }
 
+BOOST_AUTO_TEST_CASE(a_tick_that_has_no_pose_to_go_to_has_no_path) {
+  const TriangleMesh<double> object = floor_mesh();
+  HapticRenderer renderer(object, cube);
+  renderer.reset({{0, 0, 0.02}, Quaternion<double>::Identity()});
+  for (int i = 1; i < 5; ++i) {
+    const Pose<double> hand{{0.001 * i, 0, 0.02}, Quaternion<double>::Identity()};
+    BOOST_TEST_REQUIRE(!renderer.update(hand).path.empty());
+    BOOST_TEST(renderer.update({{not_a_number, 0, 0.02}, Quaternion<double>::Identity()}).path.empty());
+    BOOST_TEST(is_same(renderer.tick().graphic_pose, hand));
+  }
+}
+
 BOOST_AUTO_TEST_CASE(numbers_near_the_ends_of_the_scalar_leave_every_output_valid) {
   const TriangleMesh<double> object = floor_mesh();
   const Witness witness(Points<double>{{-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}}, Triangles{{0, 1, 2}, {0, 2, 3}}, cube);
