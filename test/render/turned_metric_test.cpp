@@ -209,4 +209,39 @@ BOOST_AUTO_TEST_CASE(axes_that_are_none_keep_the_last_pose_and_wrench) {
   BOOST_TEST(renderer.update(hand).converged());
 }
 
+BOOST_AUTO_TEST_CASE(axes_of_any_length_are_those_of_their_unit_quaternion) {
+  const auto object = ground();
+  std::mt19937 bits(7);
+  for (const double length : {0.25, 0.5, 2.0, 64.0}) {  // powers of two: not a bit differs
+    HapticRenderer one(object, Box<double>({0.01, 0.01, 0.01}), unequal()), other(object, Box<double>({0.01, 0.01, 0.01}), unequal());
+    one.reset({.translation = {0, 0, 0.02}});
+    other.reset({.translation = {0, 0, 0.02}});
+    for (int i = 0; i < 10; ++i) {
+      const Pose<double> hand{{0, 0, 0.02 - 0.002 * i}, Quaternion<double>(Eigen::AngleAxisd(0.1 * i, Vector3<double>::UnitX()))};
+      const Quaternion<double> axes = random_rotation(bits);
+      const auto& a = one.update(hand, axes);
+      const auto& b = other.update(hand, Quaternion<double>(length * axes.coeffs()));
+      BOOST_TEST((a.graphic_pose == b.graphic_pose));
+      BOOST_TEST(a.wrench.force == b.wrench.force);
+      BOOST_TEST(a.wrench.torque == b.wrench.torque);
+    }
+  }
+}
+
+BOOST_AUTO_TEST_CASE(after_a_reset_stiffness_and_metric_are_along_the_axes_of_the_poses) {
+  const auto object = ground();
+  HapticRenderer renderer(object, Sphere<double>(0.005), unequal());
+  std::mt19937 bits(8);
+  const Pose<double> start{.translation = {0, 0, 0.01}};
+  renderer.reset(start);
+  renderer.update({.translation = {0.001, 0, 0.003}}, random_rotation(bits));
+  BOOST_TEST(renderer.scene().metric().is_turned());
+  renderer.reset(start);
+  BOOST_TEST(!renderer.scene().metric().is_turned());
+  // Also one that is refused.
+  renderer.update({.translation = {0.001, 0, 0.003}}, random_rotation(bits));
+  renderer.reset({.translation = {std::numeric_limits<double>::quiet_NaN(), 0, 0}});
+  BOOST_TEST(!renderer.scene().metric().is_turned());
+}
+
 BOOST_AUTO_TEST_SUITE_END()
