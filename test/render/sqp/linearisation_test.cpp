@@ -273,4 +273,26 @@ BOOST_AUTO_TEST_CASE(a_pair_for_whose_rows_there_is_no_room_is_not_said_to_have_
   for (int t = 0; t < side * side; ++t) BOOST_TEST((room.state(t) == PairState::has_rows) == has_row[std::size_t(t)]);
 }
 
+BOOST_AUTO_TEST_CASE(a_pair_left_out_joins_also_where_rows_were_carried) {
+  Room room(1e-4, {0, 1, 2, 3});
+  room.lines.start_measured(room.scene, Room::stand(), reach, room.tick);
+  room.lines.start_measured(room.scene, Room::stand(), reach, room.tick);
+  BOOST_TEST_REQUIRE((room.state(2) == PairState::left_out));
+  BOOST_TEST_REQUIRE(room.lines.carry_to(room.scene, Room::stand(5e-5), room.tick));
+  BOOST_TEST(!room.lines.add_crossed(room.scene, Room::along_x(4.8e-5), room.tick));
+  BOOST_TEST(room.lines.add_crossed(room.scene, Room::along_x(4.95e-5), room.tick));
+  BOOST_TEST((room.state(2) == PairState::has_rows));
+}
+
+BOOST_AUTO_TEST_CASE(what_is_carried_to_a_start_is_a_ghost_there_only_if_it_was_one_when_it_was_last_measured) {
+  Room room(2e-6, {0, 1, 2, 3});
+  room.lines.start_measured(room.scene, Room::stand(), reach, room.tick);
+  for (int t = 0; t < 4; ++t) {
+    BOOST_TEST_REQUIRE((room.state(t) == PairState::has_rows));
+    room.lines.pairs()[room.lines.pairs().find(0, t)].is_ghost = true;  // of a start before
+  }
+  BOOST_TEST_REQUIRE(room.lines.start_carried(room.scene, Room::stand(1e-7), reach, room.tick));
+  for (const auto& pair : room.lines.pairs()) BOOST_TEST(!pair.is_ghost);
+}
+
 BOOST_AUTO_TEST_SUITE_END()
