@@ -2,6 +2,7 @@
 #include <boost/test/unit_test.hpp>
 
 #include <array>
+#include <cmath>
 #include <random>
 #include <utility>
 #include <vector>
@@ -64,6 +65,37 @@ BOOST_AUTO_TEST_CASE(a_renderer_that_is_reset_does_what_a_new_one_does) {
   }
   const auto scene = scenes::spline(2e-5);
   BOOST_TEST(ticks_that_differ(scene, CompoundTool<ConvexPolytope<double>>::hulls_of(scene.pieces)) == 0, scene.name);
+}
+
+BOOST_AUTO_TEST_CASE(a_hand_at_which_the_tool_was_at_rest_before_a_reset_is_followed_after_it) {
+  const ClosedMesh mesh = cube(0.01);
+  const TriangleMesh<double> object(mesh.vertices, mesh.triangles);
+  const Pose<double> start{{0, 0, 0.05}, Quaternion<double>::Identity()};
+  for (const double height : {0.03, 0.012}) {  // in the air, and pressed onto the cube
+    const Pose<double> hand{{0, 0, height}, Quaternion<double>::Identity()};
+    HapticRenderer used(object, Box<double>(Vector3<double>::Constant(0.005))), fresh(used);
+    used.reset(start);
+    for (int i = 0; i < 50; ++i) used.update(hand);
+    BOOST_TEST_REQUIRE((used.tick().converged() && used.tick().path.empty()));
+    used.reset(start);
+    fresh.reset(start);
+    for (int i = 0; i < 5; ++i) {
+      BOOST_TEST(used.update(hand).path.size() == fresh.update(hand).path.size());
+      BOOST_TEST(is_same(used.tick().graphic_pose, fresh.tick().graphic_pose));
+    }
+    BOOST_TEST(used.tick().graphic_pose.translation.z() < 0.04);
+  }
+}
+
+BOOST_AUTO_TEST_CASE(a_tool_is_inside_where_it_is_and_not_where_it_is_held) {
+  for (const double held : {-0.17, 0.0, 0.17}) {
+    Settings<double> settings;
+    settings.reference_point.x() = held;
+    for (const double place : {-0.2, -0.03, 0.0, 0.03, 0.2}) {
+      const Status expected = std::abs(place) < 0.04 ? Status::inside : Status::converged;
+      BOOST_TEST((status_of(ball(0.05, 8), {{place, 0, 0}, Quaternion<double>::Identity()}, 0.005, settings) == expected));
+    }
+  }
 }
 
 BOOST_AUTO_TEST_CASE(a_start_in_a_closed_solid_is_inside_and_no_force_follows) {
