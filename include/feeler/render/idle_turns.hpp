@@ -50,11 +50,12 @@ class IdleTurns {
       Quaternion<Scalar> turn;
       turn.w() = Scalar(1) + cosine;
       turn.vec() = axis_device.cross(axis);
+      const Scalar certainty = turn.norm();  // 2 where the axes are one, next to nothing where they are all but opposite
       Quaternion<Scalar> rotation = (turn.normalized() * device.rotation).normalized();
       if (rotation.dot(pose.rotation) < Scalar(0)) rotation.coeffs() = -rotation.coeffs();
       // A held device must not make the last bits dance.
       const Scalar change = (rotation.coeffs() - pose.rotation.coeffs()).template lpNorm<Eigen::Infinity>();
-      if (!(change > 8 * std::numeric_limits<Scalar>::epsilon())) return pose;
+      if (!(change * certainty > 16 * std::numeric_limits<Scalar>::epsilon())) return pose;
       return {pose.translation, rotation};
     }
     return pose;
