@@ -9,7 +9,7 @@ namespace feeler {
 /// How a QP solver ended; `QpSolution` says what each status leaves behind.
 enum class QpStatus {
   optimal,                ///< KKT conditions hold to the solver's tolerance
-  infeasible,             ///< no point meets the rows to the solver's tolerance; `conflict` names rows that prove it
+  infeasible,             ///< no point meets the rows to seven eighths of the solver's tolerance; `conflict` names rows that prove it
   iteration_limit,        ///< the step is finite and may violate rows
   not_positive_definite,  ///< the Hessian has no Cholesky factor; the step is zero
 };

@@ -100,6 +100,16 @@ BOOST_AUTO_TEST_CASE(rows_that_face_each_other_leave_what_the_stronger_one_has_m
   BOOST_TEST((walls.basis.weight(0) == 0.75));
 }
 
+BOOST_AUTO_TEST_CASE(rows_that_push_against_each_other_with_the_same_force_leave_none) {
+  Rows walls;
+  walls.add(Vector6::Unit(0), 1.0);
+  walls.add(Vector6::Unit(1), 1.0);
+  walls.add(Rational(-2) * Vector6::Unit(0), 0.5);
+  BOOST_TEST_REQUIRE(walls.basis.size() == 1);
+  BOOST_TEST(walls.basis.number(0) == 1);
+  BOOST_TEST(walls.lost() == Vector6(Vector6::Zero()));
+}
+
 BOOST_AUTO_TEST_CASE(a_row_that_is_a_sum_of_others_gives_them_all_of_its_weight) {
   Rows corner;
   for (int j = 0; j < 6; ++j) corner.add(Vector6::Unit(j), 1.0);

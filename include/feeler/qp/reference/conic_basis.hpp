@@ -36,7 +36,7 @@ class ConicBasis {
     int leaving = -1;
     for (int i = 0; i < size_; ++i) {
       const Scalar& share = e.coefficients[as_index(i)];
-      if (share < Scalar(0) && rows_[as_index(i)].weight < -share * given) {
+      if (share < Scalar(0) && rows_[as_index(i)].weight <= -share * given) {
         given = rows_[as_index(i)].weight / -share;
         leaving = i;
       }
