@@ -25,8 +25,8 @@ struct Clearance {
 
   /// A separation up to it is none: rounding decided how much there is [m].
   Scalar negligible() const noexcept { return 2 * allowance; }
-  /// What a step is to leave of a separation at a certified pose: half, which is what the certificate requires, but `kept` where there is that much and
-  /// all where there is less, or a fit without clearance would lose what holds it; 0 of what is negligible [m].
+  /// What a step must leave of a separation at a certified pose: half of it, but no less than `kept`; all of it where there is less than `kept`, or a
+  /// fit without clearance would lose what holds it; 0 where it is negligible [m].
   Scalar to_leave(Scalar separation) const noexcept {
     return separation > negligible() ? (std::min)(separation, (std::max)(separation / 2, kept)) : Scalar(0);
   }

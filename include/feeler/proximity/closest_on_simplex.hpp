@@ -97,8 +97,8 @@ FEELER_FLATTEN std::array<Scalar, 3> weights_on_triangle(const Vector3<Scalar>& 
 
 /// Reduces the simplex to the points that carry its point closest to the origin; false when it contains the origin.
 ///
-/// All faces are searched. That without the newest point, the last, has the origin on its far side only where the three points
-/// were flat or a start from old features had not reduced them, but then it alone tells that the origin is outside.
+/// All four faces are searched, also the one opposite to the newest point, which is the last. The origin lies beyond that face only if its three
+/// points were flat, or came unreduced from a warm start; then no other face shows that the origin is outside.
 template <class Scalar>
 FEELER_FLATTEN bool reduce_to_closest(Simplex<Scalar>& simplex) noexcept {
   const auto& p = simplex.points;

@@ -58,8 +58,8 @@ struct SweepResult {
   }
 };
 
-/// The time up to which a blocked motion is still looked at: past its first blocker, as the ones just behind it are wanted too, and times are known
-/// to a resolution only. Where there is no room for more blockers it is that of the last of them.
+/// The time up to which a blocked motion is still examined: a little past its first blocker, to learn those just behind it, and because times are
+/// known to a resolution only. If the list of blockers is full, it is the time of the last of them.
 template <ConvexTool Tool>
 typename Tool::Scalar worth_certifying(const SweepResult<typename Tool::Scalar>& result, const Clearance<typename Tool::Scalar>& clearance,
                                        const MovingTool<Tool>& moving) noexcept {

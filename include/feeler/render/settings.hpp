@@ -42,7 +42,8 @@ struct Settings {
   /// makes one bad linearisation cost more. 1e-6 to 1.
   Scalar trust_radius = Scalar(4e-4);
 
-  /// A step that moves no tool point farther than this, and a tenth of the step before it, ends a tick as converged [m]. 1e-12 to 1e-3.
+  /// A step may end a tick as converged if it moves no tool point farther than a fiftieth of this; or than this, where steps shrink so fast that the
+  /// next one would be as short as that [m]. 1e-12 to 1e-3.
   Scalar step_tolerance = Scalar(5e-6);
 
   /// Iterations a tick, at most 32: each finds a motion, by up to four linearisations, and certifies it. When they are spent the rest of the motion
@@ -50,8 +51,8 @@ struct Settings {
   int maximum_iterations = 12;
 
   /// Work a tick, in units of one distance query between the tool and a triangle, or one optimisation (with all that goes with it, 0.7 to 1 µs for
-  /// 32 vertices). A tick ends within a fifth more than it, on the certified pose that it has, and the next goes on with what it was at. Less bounds
-  /// the worst tick, and lets the tool lag where the solution jumps, or where what is all around the tool takes some ticks to look at. 1 to
+  /// 32 vertices). A tick ends within a fifth more than it, on the certified pose that it has, and the next tick goes on where it stopped. A smaller
+  /// budget makes the worst tick shorter, and the tool later where the solution jumps, or where a fit all around it takes some ticks to examine. 1 to
   /// 1e8; with less than 20 a tool may not come to rest.
   int work_budget = 128;
 };

@@ -11,8 +11,8 @@ namespace feeler {
 
 /// The triangles that are to hold the tool in place of a ghost, and those that continue a face that touches.
 ///
-/// They never blocked a motion: it may come closer than the margin. So the tool would, and turn back where the ghost is none any more, or rest on an
-/// edge of a tool that is all but flat on the face.
+/// No motion has met these triangles yet, as the certificate allows less than the margin. Without their rows the tool would come too close, and then
+/// turn back where the ghost has become a contact, or rest on one of its edges where it should lie flat on the face.
 class NeighbourQueue {
  public:
   struct Neighbour {

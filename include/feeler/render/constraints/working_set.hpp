@@ -58,7 +58,7 @@ class WorkingSet {
   using Scalar = ScalarType;
   using Pair = WorkingPair<Scalar>;
   static constexpr int capacity = pair_capacity;
-  /// Ticks for which a pair that touches stays unused: a shaft that fits touches its hole all around, and a few of those triangles hold it.
+  /// Ticks for which a pair that touches may stay in the set unused: a shaft that fits touches its hole all around, and a few of those triangles hold it.
   static constexpr int longest_unused = 1000;
   static constexpr int longest_unused_filler = 8;
 
@@ -109,8 +109,8 @@ class WorkingSet {
     for (Pair& pair : pairs_) pair.moved += length;
   }
 
-  /// Counts a tick, and drops pairs that have been unused for longer than one; those that touch, and do not repeat the rows of others, for longer
-  /// than `longest_unused`, or as fillers than `longest_unused_filler`. Those that would be noticed again stay.
+  /// Counts a tick, and drops each pair that has been unused for more than one. A pair that touches, and whose rows do not repeat those of others, is
+  /// dropped after `longest_unused` ticks, a filler after `longest_unused_filler`. A pair that would be noticed again stays.
   /// @param contact_distance  what is nearer touches [m]
   /// @param noticed           what is nearer would be noticed [m]; 0 where nothing is, as there is no clearance
   /// @param is_motion_left           the last tick left motion for this one, and ghosts that blocked it keep their rows

@@ -42,8 +42,8 @@ void want_rims(Pairs& pairs, const Scene& scene, const SweepResult<typename Scen
   }
 }
 
-/// Takes in what blocked a motion; false when another linearisation would find no more than the last, as all of it was there already with rows of its
-/// own, and it is the way that meets it.
+/// Takes in the triangles that blocked a motion. False if another linearisation would find no more than the last: all these triangles had rows
+/// already, and it is the way to the end of the motion that meets them, not the end.
 template <class Pairs, class Scene>
 bool take_in_blockers(Pairs& pairs, const Scene& scene, const SweepResult<typename Scene::Scalar>& result) noexcept {
   constexpr bool is_convex = maximum_pieces<typename Scene::Tool> == 1;

@@ -81,8 +81,8 @@ class Linearisation {
     return finish(scene, tick, limit);
   }
 
-  /// The same with the rows of the last linearisation, carried: the features that meet are the same. False where that was farther away than a step
-  /// tolerance, where a plane parts its pair by less than a certificate requires, or where the work ran out: called again there it goes on.
+  /// The same with the rows of the last linearisation, carried here: the same features meet. False if that was farther away than a step tolerance, if
+  /// the plane of a pair parts it by less than a certificate requires, or if the work ran out; a later call then goes on.
   bool start_carried(const Scene& scene, const Pose<Scalar>& pose, Scalar reach, Tick<MeshScalar>& tick, int limit = unlimited) noexcept {
     if (!has_rows_ || problem_.rests_on_kept()) return false;  // rows of the features that the tool was to leave
     const Twist<Scalar> motion = scene.idle_turns().motion_between(separation_.pose(), pose);

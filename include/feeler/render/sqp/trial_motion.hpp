@@ -57,8 +57,8 @@ class TrialMotionSearch {
   Scalar no_motion(const Scene& scene) const noexcept {
     return motion_.is_settled && linearisation_.problem().is_relaxed() ? 10 * scene.no_motion() : scene.no_motion();
   }
-  /// What is nearer where the motion ends may hold the tool there: nearer than the margin, less what the last step had to leave out of it. What rests
-  /// at that distance asks for nothing [m].
+  /// A triangle can hold the tool at the end of the motion only if it is nearer than this: the margin, less what the last step left out of it. One at
+  /// exactly that distance asks for nothing [m].
   Scalar holding_distance(const Scene& scene) const noexcept {
     return (std::max)(scene.noticed() - linearisation_.problem().relaxation(), scene.clearance().none());
   }
