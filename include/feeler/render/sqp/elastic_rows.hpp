@@ -172,14 +172,14 @@ class ElasticRows {
       if (kink > relaxation_ - tolerance_) below += active.multiplier;
       else last_kink = (std::max)(last_kink, kink);
     }
-    const Scalar near = (std::max)(search.least, search.most / 1000);
+    const Scalar resolution = (std::max)(search.least, search.most / 1000);
     Scalar next;
     if (above > search.price) {
       if (!(relaxation_ < search.high)) return false;
       search.low = relaxation_;
       next = (std::min)(relaxation_ + (std::max)((above - search.price) / fall_of_sum(problem, solution), search.least), next_kink);
     } else {
-      if (search.is_least || below >= search.price - search.price / 1000 || relaxation_ - search.low <= near) return false;
+      if (search.is_least || below >= search.price - search.price / 1000 || relaxation_ - search.low <= resolution) return false;
       search.high = relaxation_;
       search.is_high_enough = true;
       next = (std::max)(relaxation_ - (search.price - below) / fall_of_sum(problem, solution), last_kink);
