@@ -25,6 +25,12 @@ inline feeler::QpProblem<double> general_problem(std::mt19937& bits, int rows, b
   return problem;
 }
 
+inline feeler::detail::Six<double> in_six(const feeler::Vector6<double>& v) {
+  feeler::detail::Six<double> numbers;
+  std::copy_n(v.data(), 6, numbers.begin());
+  return numbers;
+}
+
 /// The function of a problem, its Hessian factored in place.
 struct Quadratic {
   feeler::detail::InverseHessian<double> hessian;
@@ -32,7 +38,7 @@ struct Quadratic {
 
   explicit Quadratic(const feeler::QpProblem<double>& problem) {
     BOOST_TEST_REQUIRE(hessian.factor(problem.hessian));
-    std::copy_n(problem.gradient.data(), 6, gradient.begin());
+    gradient = in_six(problem.gradient);
   }
 };
 

@@ -18,15 +18,10 @@ BOOST_AUTO_TEST_SUITE(active_operators)
 namespace {
 
 using Six = feeler::detail::Six<double>;
+using feeler_test::in_six;
 using Matrix6 = feeler::Matrix6<double>;
 using Vector6 = feeler::Vector6<double>;
 using Wide = Eigen::Matrix<long double, Eigen::Dynamic, Eigen::Dynamic>;
-
-Six in_six(const Vector6& v) {
-  Six numbers;
-  std::copy_n(v.data(), 6, numbers.begin());
-  return numbers;
-}
 
 /// The first six numbers.
 template <class Numbers>

@@ -2,7 +2,6 @@
 
 #include <boost/test/unit_test.hpp>
 
-#include <algorithm>
 #include <limits>
 #include <random>
 #include <tuple>
@@ -18,15 +17,11 @@ namespace {
 
 using Inverse = feeler::detail::InverseHessian<double>;
 using Six = feeler::detail::Six<double>;
+using feeler_test::in_six;
 using Matrix6 = feeler::Matrix6<double>;
 using Vector6 = feeler::Vector6<double>;
 using Scalars = std::tuple<float, double, long double>;
 
-Six in_six(const Vector6& v) {
-  Six numbers;
-  std::copy_n(v.data(), 6, numbers.begin());
-  return numbers;
-}
 Vector6 in_vector(const Six& v) { return Eigen::Map<const Vector6>(v.data()); }
 
 void check_near(const Vector6& found, const Vector6& expected, double tolerance = 1e-11) {

@@ -22,17 +22,12 @@ namespace {
 
 using Problem = feeler::QpProblem<double>;
 using Six = feeler::detail::Six<double>;
+using feeler_test::in_six;
 using Vector6 = feeler::Vector6<double>;
 using Matrix6 = feeler::Matrix6<double>;
 template <int lanes>
 using Scan = feeler::detail::RowScan<double, lanes>;
 constexpr double tolerance = 1e-6;
-
-Six in_six(const Vector6& v) {
-  Six numbers;
-  std::copy_n(v.data(), 6, numbers.begin());
-  return numbers;
-}
 
 /// Some rows, of which many are violated at 0; behind them are what is left of others that ask for far more.
 Problem problem_with_leftovers(std::mt19937& bits, int rows, bool is_diagonal) {

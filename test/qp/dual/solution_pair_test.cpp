@@ -2,7 +2,6 @@
 
 #include <boost/test/unit_test.hpp>
 
-#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <limits>
@@ -20,15 +19,11 @@ namespace {
 
 using Problem = feeler::QpProblem<double>;
 using Six = feeler::detail::Six<double>;
+using feeler_test::in_six;
 using Vector6 = feeler::Vector6<double>;
 constexpr int lanes = 2;
 using Pair = feeler::detail::SolutionPair<double, lanes>;
 
-Six in_six(const Vector6& v) {
-  Six numbers;
-  std::copy_n(v.data(), 6, numbers.begin());
-  return numbers;
-}
 Vector6 at(const Pair& pair) { return Eigen::Map<const Vector6>(pair.x().data()); }
 
 /// A problem, and a pair in it.
