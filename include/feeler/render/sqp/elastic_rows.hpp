@@ -69,7 +69,7 @@ class ElasticRows {
   int solve(Solver& solver, QpProblem<Scalar>& problem, Scalar price, Scalar least, int allowed, const WarmStart& start,
             QpSolution<Scalar>& solution) noexcept {
     const int last = (std::min)(allowed, most_solves);
-    const Scalar most = last_kink();
+    const Scalar most = most_relaxation();
     Search search{.price = price, .least = least, .most = most, .high = most};
     tolerance_ = least;
     relaxation_ = Scalar(0);
@@ -141,7 +141,7 @@ class ElasticRows {
   /// The relaxation with which a row comes to its hard bound.
   Scalar kink(int k) const noexcept { return rows_[as_index(k)].soft - rows_[as_index(k)].hard; }
   /// With more no row is relaxed further [m].
-  Scalar last_kink() const noexcept {
+  Scalar most_relaxation() const noexcept {
     Scalar most(0);
     for (int k = 0; k < size_; ++k) most = (std::max)(most, kink(k));
     return most;
@@ -164,13 +164,13 @@ class ElasticRows {
     Scalar above(0), below(0);  // the sums with a little more ξ, and with a little less
     Scalar next_kink = search.high, last_kink = search.low;
     for (const auto& active : solution.active) {
-      const Scalar kink = this->kink(active.row);
-      if (kink > relaxation_ + tolerance_) {
+      const Scalar hard_from = kink(active.row);
+      if (is_soft(active.row)) {
         above += active.multiplier;
-        next_kink = (std::min)(next_kink, kink);
+        next_kink = (std::min)(next_kink, hard_from);
       }
-      if (kink > relaxation_ - tolerance_) below += active.multiplier;
-      else last_kink = (std::max)(last_kink, kink);
+      if (hard_from > relaxation_ - tolerance_) below += active.multiplier;
+      else last_kink = (std::max)(last_kink, hard_from);
     }
     const Scalar resolution = (std::max)(search.least, search.most / 1000);
     Scalar next;
