@@ -15,6 +15,7 @@
 #include "command_line.hpp"
 #include "feeler/feeler.hpp"
 #include "golden/arithmetic.hpp"
+#include "golden/comparison.hpp"
 #include "golden/record.hpp"
 #include "golden/trajectory.hpp"
 #include "scenes/catalogue.hpp"
@@ -251,53 +252,21 @@ int print_hashes(const Options& options) {
   return 0;
 }
 
-/// Says of each scene whether its trajectories are those of the file.
-/// @return 0 if they are, 1 if one is not, 77 if the file is of another arithmetic, in which they cannot be
+/// @return 0 if the trajectories are those of the file, 1 if one is not, 77 if the file is of another arithmetic
 int compare_hashes(const Options& options) {
   constexpr int differs = 1, is_skipped = 77;
-  auto golden = feeler::bench::read_golden_record(options.golden_file);
-  const std::string file = options.golden_file;
-  if (const auto arithmetic = feeler::bench::arithmetic(); arithmetic != golden.arithmetic) {
-    std::printf(
-        "skipped: last bits of sin, cos, tan, atan2, exp or x y + z differ here from those of %s (arithmetic %s, not %s), and so do trajectories\n",
-        file.c_str(), feeler::bench::hexadecimal(arithmetic).c_str(), feeler::bench::hexadecimal(golden.arithmetic).c_str());
-    return is_skipped;
-  }
-  int others = 0;
+  feeler::bench::GoldenComparison comparison(options.golden_file);
+  if (!comparison.is_possible()) return is_skipped;
   for_each_scene(
-      options,
-      [&](const std::string& name, const auto& scene, const auto& tool) {
-        const auto hashes = feeler::bench::golden_hashes(scene, tool);
-        const auto entry = golden.scenes.find(name);
-        if (entry == golden.scenes.end()) {
-          ++others;
-          std::printf("%s: is not in %s\n", name.c_str(), file.c_str());
-        } else if (hashes != entry->second) {
-          ++others;
-          std::printf("%s: another trajectory than in %s at", name.c_str(), file.c_str());
-          for (std::size_t i = 0; i < hashes.size(); ++i) {
-            if (hashes[i] != entry->second[i]) std::printf(" [%s]", feeler::bench::golden_hands[i].name);
-          }
-          std::printf("\n");
-        } else {
-          std::printf("%s: the same\n", name.c_str());
-        }
-        golden.scenes.erase(name);
-        std::fflush(stdout);
-      },
+      options, [&](const std::string& name, const auto& scene, const auto& tool) { comparison.add(name, feeler::bench::golden_hashes(scene, tool)); },
       [&](const char* name, const std::filesystem::path& mesh) {
         std::printf("%s: skipped, %s is not here\n", name, mesh.c_str());
-        golden.scenes.erase(name);
+        comparison.skip(name);
       });
-  if (options.scene == "all") {
-    for (const auto& [name, hashes] : golden.scenes) {
-      ++others;
-      std::printf("%s: is in %s alone\n", name.c_str(), file.c_str());
-    }
-  }
-  if (others == 0) return 0;
+  if (options.scene == "all") comparison.conclude_all();
+  if (comparison.others() == 0) return 0;
   std::printf("scenes that differ: %d. A change that was to change no behaviour has changed it; if that was meant: feeler-replay --hash > %s\n",
-              others, file.c_str());
+              comparison.others(), options.golden_file.c_str());
   return differs;
 }
 
