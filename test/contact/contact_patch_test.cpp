@@ -7,6 +7,7 @@
 #include <initializer_list>
 #include <random>
 #include <set>
+#include <utility>
 #include <vector>
 
 #include "feeler/proximity/separation.hpp"
@@ -592,7 +593,7 @@ BOOST_AUTO_TEST_CASE(a_patch_finds_the_same_whatever_it_found_before) {
   }
 }
 
-BOOST_AUTO_TEST_CASE(beyond_the_end_of_a_ridge_edges_cross_where_it_runs_into_the_object_and_nowhere_else) {
+BOOST_AUTO_TEST_CASE(beyond_the_end_of_a_ridge_edges_are_assumed_to_cross_where_it_runs_into_the_object_and_nowhere_else) {
   // A roof along y with a gable at y = 1 that rises from the end of its ridge by a half, with or without what joins the two; at y = −1 there is nothing.
   const feeler::Points<double> vertices{{0, -1, 0}, {0, 1, 0}, {1, 0, -1}, {-1, 0, -1}, {1, 3, 1}, {-1, 3, 1}};
   const double beyond = 5e-6;
@@ -601,12 +602,20 @@ BOOST_AUTO_TEST_CASE(beyond_the_end_of_a_ridge_edges_cross_where_it_runs_into_th
     const Mesh mesh(vertices, is_joined ? feeler::Triangles{{0, 2, 1}, {0, 1, 3}, {1, 4, 5}, {1, 2, 4}, {1, 5, 3}}
                                         : feeler::Triangles{{0, 2, 1}, {0, 1, 3}, {1, 4, 5}});
     for (int triangle = 0; triangle < 2; ++triangle) {
-      const auto edges_at = [&](double y) { return find(across, mesh, triangle, at({0, y, 4 * beyond}), true).count(FeaturePair::edge_edge); };
+      // How many are found, and how many of them are assumed.
+      const auto edges_at = [&](double y, bool assumes) {
+        const Found found = find(across, mesh, triangle, at({0, y, 4 * beyond}), true, Vector::Zero(), assumes);
+        const auto is_assumed = [](const auto& row) { return row.kind == FeaturePair::edge_edge && row.is_assumed; };
+        return std::pair(found.count(FeaturePair::edge_edge), int(std::count_if(found.rows.begin(), found.rows.end(), is_assumed)));
+      };
       BOOST_TEST_CONTEXT("triangle " << triangle << (is_joined ? ", joined" : ", alone")) {
-        BOOST_TEST(edges_at(1 + beyond) == (is_joined ? 1 : 0));
-        BOOST_TEST(edges_at(1 - beyond) == 1);
-        BOOST_TEST(edges_at(-1 + beyond) == 1);
-        BOOST_TEST(edges_at(-1 - beyond) == 0);
+        for (const bool assumes : {true, false}) {
+          const int past = assumes && is_joined ? 1 : 0;
+          BOOST_TEST((edges_at(1 + beyond, assumes) == std::pair(past, past)));
+          BOOST_TEST((edges_at(1 - beyond, assumes) == std::pair(1, 0)));
+          BOOST_TEST((edges_at(-1 + beyond, assumes) == std::pair(1, 0)));
+          BOOST_TEST((edges_at(-1 - beyond, assumes) == std::pair(0, 0)));
+        }
       }
     }
   }

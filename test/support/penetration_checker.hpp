@@ -241,6 +241,14 @@ inline WideReal depth_in_triangle(const CheckedTool& tool, const std::array<Wide
 
 }  // namespace detail
 
+/// Distance of the tool at a pose from a triangle that its core does not penetrate: by all pairs of features, less the radius.
+inline WideReal distance_from_triangle(const CheckedObject& object, int triangle, const CheckedTool& tool, const CheckedPose& pose) {
+  const Eigen::Matrix<WideReal, 3, 3> tool_from_world = pose.rotation.toRotationMatrix().transpose();
+  std::array<WideVector, 3> corners;
+  for (int k = 0; k < 3; ++k) corners[std::size_t(k)] = tool_from_world * (object.corner(triangle, k) - pose.translation);
+  return detail::distance_of_core(tool, corners) - tool.radius;
+}
+
 /// The deepest penetration of the tool at a pose: max over triangles of max(0, −s), s = max over unit n of
 /// [min_i n·(p + R v_i) − max_{y∈τ} n·y] − radius; a penetration below the rounding of long double counts as touching.
 ///

@@ -130,6 +130,19 @@ BOOST_AUTO_TEST_CASE(a_sphere_is_as_deep_as_its_centre_is_nearer_than_the_radius
   BOOST_TEST(depth_of(plane(), ball, shifted(8.36, 8.36, 0)) == 0);  // its bounds reach over the corner
 }
 
+BOOST_AUTO_TEST_CASE(a_rounded_cube_is_as_far_from_a_triangle_as_its_nearest_features_less_the_radius) {
+  const CheckedTool cube = box(Vector3d::Constant(0.5)).swept_by(0.25L);
+  const auto distance_of = [&](const CheckedObject& object, const CheckedPose& pose) {
+    return double(distance_from_triangle(object, 0, cube, pose));
+  };
+  const CheckedObject floor = triangle({-1, -1, 0}, {3, -1, 0}, {-1, 3, 0});
+  const Quaterniond on_its_corner = feeler::scenes::rotation_between(Vector3d(-1, -1, -1), Vector3d(0, 0, -1));
+  BOOST_TEST(std::abs(distance_of(floor, shifted(0, 0, 1)) - 0.25) < 1e-16);                                                    // face over face
+  BOOST_TEST(std::abs(distance_of(floor, {Vector3d(0, 0, 2), on_its_corner}) - (1.75 - std::sqrt(0.75))) < 1e-15);              // a corner over it
+  BOOST_TEST(std::abs(distance_of(triangle({0.1, 0.1, 2}, {1, 0.25, 3}, {-0.25, 1, 4}), at_rest) - 1.25) < 1e-16);              // its corner
+  BOOST_TEST(std::abs(distance_of(triangle({1.5, -3, 1.5}, {1.5, 3, 1.5}, {4, 0, 4}), at_rest) - (std::sqrt(2.0) - 0.25)) < 1e-15);  // its edge
+}
+
 BOOST_AUTO_TEST_CASE(a_rounded_cube_is_as_deep_as_its_core_and_the_radius) {
   const CheckedTool cube = box(Vector3d::Constant(0.5)).swept_by(0.25L);
   const Quaterniond on_its_corner = feeler::scenes::rotation_between(Vector3d(-1, -1, -1), Vector3d(0, 0, -1));

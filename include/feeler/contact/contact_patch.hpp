@@ -50,7 +50,7 @@ class ContactPatch {
   /// @param world_from_tool  axes of the tool; rows come out in world axes
   /// @param reference        reference point in the tool frame [m]
   /// @param band             height above the separating plane up to which features count, where their gap is at most a quarter of it [m]
-  /// @param assumes_valleys  let the planes of valleys hold the tool before it is over them
+  /// @param assumes_valleys  let the planes of valleys hold the tool before it is over them, and edges past their ends
   /// @param near_vertices    is filled with the tool vertices in the band; made for at least as many as the tool has
   ContactPatch(const Tool& tool, const FeatureIncidence& incidence, const TriangleMesh<MeshScalar>& mesh, const Matrix3<Scalar>& world_from_tool,
                const Vector& reference, Scalar band, bool assumes_valleys, VertexSet& near_vertices) noexcept
@@ -79,7 +79,7 @@ class ContactPatch {
       triangle_.measure_edges();
       features_.gather(closest, normal_, lengths_.band);
       add_vertices_on_face(rows);
-      if (near_.size() > 1) EdgeEdgeRows<Tool, MeshScalar>(features_, triangle_, surface_, maker_, normal_, lengths_).add_to(rows);
+      if (near_.size() > 1) EdgeEdgeRows<Tool, MeshScalar>(features_, triangle_, surface_, maker_, normal_, lengths_, assumes_valleys_).add_to(rows);
       if (tool_.face_count() > 0 && near_.size() > 2)
         features_.for_each_face([&](const ToolFace<Scalar>& face) { this->add_corners_on_face(face, rows); });
     }

@@ -32,7 +32,7 @@ struct ContactRow {
   FeaturePair kind = FeaturePair::vertex_face;
   int piece = 0;  ///< of the tool
   int triangle = -1;
-  bool is_assumed = false;  ///< a plane that the tool is not over yet: a step that it stops is not the last one
+  bool is_assumed = false;  ///< a plane that the tool is not over yet, or an edge past its end: a step that it stops is not the last one
   bool is_repeated = false; ///< rows of other pairs ask the same and were left out for it
   Vector3<Scalar> normal = Vector3<Scalar>::UnitZ();     ///< unit, from the object to the tool
   Vector3<Scalar> arm = Vector3<Scalar>::Zero();         ///< contact point on the tool; for `face_vertex` the object vertex

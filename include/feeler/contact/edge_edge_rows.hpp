@@ -32,9 +32,10 @@ class EdgeEdgeRows {
   /// All are kept by reference.
   /// @param triangle  with its edges measured
   /// @param normal    unit, of the contact, towards the tool
+  /// @param assumes   let edges hold the tool past their ends, as `ContactPatch` has it
   EdgeEdgeRows(const FeatureBand<Tool>& features, const PatchTriangle<Scalar>& triangle, const SurfaceAround<Scalar, MeshScalar>& surface,
-               const PatchRowMaker<Tool>& maker, const Vector& normal, const PatchLengths<Scalar>& lengths) noexcept
-      : features_(features), triangle_(triangle), surface_(surface), maker_(maker), normal_(normal), lengths_(lengths) {}
+               const PatchRowMaker<Tool>& maker, const Vector& normal, const PatchLengths<Scalar>& lengths, bool assumes) noexcept
+      : features_(features), triangle_(triangle), surface_(surface), maker_(maker), normal_(normal), lengths_(lengths), assumes_(assumes) {}
 
   void add_to(Rows& rows) const noexcept {
     FixedVector<ObjectEdge, 3> object_edges;
@@ -80,13 +81,14 @@ class EdgeEdgeRows {
     const Scalar part_of_tool = between.cross(u).dot(across) / cross_squared;
     if (!(part_of_tool >= Scalar(0) && part_of_tool <= Scalar(1))) return;
     const Scalar beyond = (std::max)(-along_object, along_object - object.length);
-    if (!(beyond <= lengths_.band)) return;
+    const bool is_assumed = beyond > lengths_.seam;
+    if (!(beyond <= lengths_.band) || (is_assumed && !assumes_)) return;
     const Vector normal = cross / (along_normal < Scalar(0) ? -sqrt(cross_squared) : sqrt(cross_squared));
     const Scalar gap = maker_.on_surface(normal.dot(between));
     if (abs(gap) > lengths_.largest_gap || !surface_.is_clear_of_neighbour_across(object.number, normal)) return;
-    // Past its end the edge holds nothing. But where its line goes on into the object, seen along the tool's edge, a step may lead back to it, as
-    // beyond a valley.
-    if (beyond > Scalar(0)) {
+    // Past its end the edge holds nothing. But where its line goes on into the object, seen along the tool's edge, a step may lead back to it: that it
+    // holds the tool is assumed, as beyond a valley.
+    if (is_assumed) {
       const Vector sideways = normal.cross(tool);
       const bool is_before = along_object < Scalar(0);
       if (!surface_.leads_under_a_neighbour(is_before ? object.number : (object.number + 1) % 3,
@@ -95,7 +97,8 @@ class EdgeEdgeRows {
     }
     const Scalar tool_length = sqrt(tool_squared);
     const Scalar room = (std::min)({(std::max)(-beyond, Scalar(0)), part_of_tool * tool_length, (1 - part_of_tool) * tool_length});
-    rows.push_back(maker_.row_of_edges(normal, Vector(tool_start + part_of_tool * tool), gap, room, u, Vector(tool / tool_length)));
+    if (rows.push_back(maker_.row_of_edges(normal, Vector(tool_start + part_of_tool * tool), gap, room, u, Vector(tool / tool_length))))
+      rows.back().is_assumed = is_assumed;
   }
 
   /// Edges in parallel touch along an interval; its ends hold the tool.
@@ -130,6 +133,7 @@ class EdgeEdgeRows {
   const PatchRowMaker<Tool>& maker_;
   const Vector& normal_;
   const PatchLengths<Scalar>& lengths_;
+  bool assumes_;
 };
 
 }  // namespace feeler
