@@ -239,14 +239,19 @@ inline WideReal depth_in_triangle(const CheckedTool& tool, const std::array<Wide
   return tool.radius + (depth > 0 ? depth : -distance_of_core(tool, corners));
 }
 
+/// Corners of a triangle in the frame of a tool.
+inline std::array<WideVector, 3> corners_in_tool(const CheckedObject& object, int triangle, const Eigen::Matrix<WideReal, 3, 3>& tool_from_world,
+                                                 const CheckedPose& pose) {
+  std::array<WideVector, 3> corners;
+  for (int k = 0; k < 3; ++k) corners[std::size_t(k)] = tool_from_world * (object.corner(triangle, k) - pose.translation);
+  return corners;
+}
+
 }  // namespace detail
 
 /// Distance of the tool at a pose from a triangle that its core does not penetrate: by all pairs of features, less the radius.
 inline WideReal distance_from_triangle(const CheckedObject& object, int triangle, const CheckedTool& tool, const CheckedPose& pose) {
-  const Eigen::Matrix<WideReal, 3, 3> tool_from_world = pose.rotation.toRotationMatrix().transpose();
-  std::array<WideVector, 3> corners;
-  for (int k = 0; k < 3; ++k) corners[std::size_t(k)] = tool_from_world * (object.corner(triangle, k) - pose.translation);
-  return detail::distance_of_core(tool, corners) - tool.radius;
+  return detail::distance_of_core(tool, detail::corners_in_tool(object, triangle, pose.rotation.toRotationMatrix().transpose(), pose)) - tool.radius;
 }
 
 /// The deepest penetration of the tool at a pose: max over triangles of max(0, −s), s = max over unit n of
@@ -279,8 +284,7 @@ inline Penetration deepest_penetration(const CheckedObject& object, const Checke
     for (std::size_t i = start; i < std::min(start + CheckedObject::block, object.bounds.size()); ++i) {
       if (!object.bounds[i].intersects(tool_bounds)) continue;
       const int triangle = int(i);
-      std::array<WideVector, 3> corners;
-      for (int k = 0; k < 3; ++k) corners[std::size_t(k)] = tool_from_world * (object.corner(triangle, k) - pose.translation);
+      const std::array<WideVector, 3> corners = detail::corners_in_tool(object, triangle, tool_from_world, pose);
       const WideVector lower = corners[0].cwiseMin(corners[1]).cwiseMin(corners[2]);
       const WideVector upper = corners[0].cwiseMax(corners[1]).cwiseMax(corners[2]);
       if ((lower.array() >= tool.upper.array()).any() || (upper.array() <= tool.lower.array()).any()) continue;
