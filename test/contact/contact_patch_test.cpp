@@ -78,14 +78,14 @@ struct Found {
 
 template <class Tool>
 Found find(const Tool& tool, const Mesh& mesh, int triangle, const feeler::Pose<double>& pose, bool keep_ghost = false,
-           const Vector& reference = Vector::Zero(), bool assumes_valleys = false) {
+           const Vector& reference = Vector::Zero(), bool may_assume = false) {
   const Eigen::Matrix3d axes = pose.rotation.toRotationMatrix();
   // pose.translation is where the reference point is.
   const Eigen::Matrix3d corners = (axes.transpose() * (mesh.corners(triangle).colwise() - pose.translation)).colwise() + reference;
   const auto closest = feeler::separation(tool, corners, {}, 1e-8);
   const feeler::FeatureIncidence incidence = feeler::incidence_of(tool);
   feeler::VertexSet near(tool.vertex_count());
-  ContactPatch<Tool, double> patch(tool, incidence, mesh, axes, reference, band, assumes_valleys, near);
+  ContactPatch<Tool, double> patch(tool, incidence, mesh, axes, reference, band, may_assume, near);
   Found found;
   found.has_rows = patch.find(triangle, corners, closest, keep_ghost, found.rows);
   found.is_ghost = patch.is_ghost();

@@ -50,14 +50,14 @@ class ContactPatch {
   /// @param world_from_tool  axes of the tool; rows come out in world axes
   /// @param reference        reference point in the tool frame [m]
   /// @param band             height above the separating plane up to which features count, where their gap is at most a quarter of it [m]
-  /// @param assumes_valleys  let the planes of valleys hold the tool before it is over them, and edges past their ends
+  /// @param may_assume  let the planes of valleys hold the tool before it is over them, and edges past their ends
   /// @param near_vertices    is filled with the tool vertices in the band; made for at least as many as the tool has
   ContactPatch(const Tool& tool, const FeatureIncidence& incidence, const TriangleMesh<MeshScalar>& mesh, const Matrix3<Scalar>& world_from_tool,
-               const Vector& reference, Scalar band, bool assumes_valleys, VertexSet& near_vertices) noexcept
+               const Vector& reference, Scalar band, bool may_assume, VertexSet& near_vertices) noexcept
       : tool_(tool),
         world_from_tool_(world_from_tool),
         lengths_(band),
-        assumes_valleys_(assumes_valleys),
+        may_assume_(may_assume),
         maker_(tool, world_from_tool_, reference, lengths_.seam),
         surface_(mesh, world_from_tool_, lengths_.seam),
         features_(tool, incidence, near_vertices),
@@ -79,7 +79,7 @@ class ContactPatch {
       triangle_.measure_edges();
       features_.gather(closest, normal_, lengths_.band);
       add_vertices_on_face(rows);
-      if (near_.size() > 1) EdgeEdgeRows<Tool, MeshScalar>(features_, triangle_, surface_, maker_, normal_, lengths_, assumes_valleys_).add_to(rows);
+      if (near_.size() > 1) EdgeEdgeRows<Tool, MeshScalar>(features_, triangle_, surface_, maker_, normal_, lengths_, may_assume_).add_to(rows);
       if (tool_.face_count() > 0 && near_.size() > 2)
         features_.for_each_face([&](const ToolFace<Scalar>& face) { this->add_corners_on_face(face, rows); });
     }
@@ -90,7 +90,7 @@ class ContactPatch {
     if (!near_.empty() && surface_.is_inside_wall()) return true;
     if (!keep_ghost && !is_in_cone(closest)) {
       is_ghost_ = true;
-      if (assumes_valleys_) add_concave_face(closest, rows);
+      if (may_assume_) add_concave_face(closest, rows);
       return !rows.empty();
     }
     is_filler_ = rows.empty() && near_.size() > 1 && is_own_plane();
@@ -258,7 +258,7 @@ class ContactPatch {
   Matrix3<Scalar> world_from_tool_;
   bool is_filler_ = false, is_ghost_ = false;  // see `is_filler()`, `is_ghost()`
   PatchLengths<Scalar> lengths_;
-  bool assumes_valleys_;
+  bool may_assume_;
   PatchRowMaker<Tool> maker_;
   SurfaceAround<Scalar, MeshScalar> surface_;
 

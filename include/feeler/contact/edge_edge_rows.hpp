@@ -32,10 +32,10 @@ class EdgeEdgeRows {
   /// All are kept by reference.
   /// @param triangle  with its edges measured
   /// @param normal    unit, of the contact, towards the tool
-  /// @param assumes   let edges hold the tool past their ends, as `ContactPatch` has it
+  /// @param may_assume  let edges hold the tool past their ends, as `ContactPatch` has it
   EdgeEdgeRows(const FeatureBand<Tool>& features, const PatchTriangle<Scalar>& triangle, const SurfaceAround<Scalar, MeshScalar>& surface,
-               const PatchRowMaker<Tool>& maker, const Vector& normal, const PatchLengths<Scalar>& lengths, bool assumes) noexcept
-      : features_(features), triangle_(triangle), surface_(surface), maker_(maker), normal_(normal), lengths_(lengths), assumes_(assumes) {}
+               const PatchRowMaker<Tool>& maker, const Vector& normal, const PatchLengths<Scalar>& lengths, bool may_assume) noexcept
+      : features_(features), triangle_(triangle), surface_(surface), maker_(maker), normal_(normal), lengths_(lengths), may_assume_(may_assume) {}
 
   void add_to(Rows& rows) const noexcept {
     FixedVector<ObjectEdge, 3> object_edges;
@@ -82,7 +82,7 @@ class EdgeEdgeRows {
     if (!(part_of_tool >= Scalar(0) && part_of_tool <= Scalar(1))) return;
     const Scalar beyond = (std::max)(-along_object, along_object - object.length);
     const bool is_assumed = beyond > lengths_.seam;
-    if (!(beyond <= lengths_.band) || (is_assumed && !assumes_)) return;
+    if (!(beyond <= lengths_.band) || (is_assumed && !may_assume_)) return;
     const Vector normal = cross / (along_normal < Scalar(0) ? -sqrt(cross_squared) : sqrt(cross_squared));
     const Scalar gap = maker_.on_surface(normal.dot(between));
     if (abs(gap) > lengths_.largest_gap || !surface_.is_clear_of_neighbour_across(object.number, normal)) return;
@@ -133,7 +133,7 @@ class EdgeEdgeRows {
   const PatchRowMaker<Tool>& maker_;
   const Vector& normal_;
   const PatchLengths<Scalar>& lengths_;
-  bool assumes_;
+  bool may_assume_;
 };
 
 }  // namespace feeler

@@ -106,11 +106,11 @@ class Linearisation {
   }
 
   /// Rows where a step ended; false where the work ran out, and `go_on` measures the rest.
-  /// @param assumes_valleys  as `ContactPatch` has it
-  bool move_to(const Scene& scene, const Pose<Scalar>& pose, bool assumes_valleys, Tick<MeshScalar>& tick, int limit = unlimited) noexcept {
+  /// @param may_assume  as `ContactPatch` has it
+  bool move_to(const Scene& scene, const Pose<Scalar>& pose, bool may_assume, Tick<MeshScalar>& tick, int limit = unlimited) noexcept {
     separation_.put_at(pose, false);
     leaves_out_pairs_ = false;
-    assumes_valleys_ = assumes_valleys;
+    may_assume_ = may_assume;
     begin_to_measure();
     return go_on(scene, tick, limit);
   }
@@ -185,7 +185,7 @@ class Linearisation {
     separation_.put_at(pose, true);
     leaves_out_pairs_ = false;
     start_ = pose;
-    assumes_valleys_ = true;
+    may_assume_ = true;
     reach_ = reach;
     has_rows_ = false;
     kept_.clear();
@@ -235,7 +235,7 @@ class Linearisation {
     const Matrix3<Scalar> corners = separation_.corners_in_tool(scene, pair);
     const auto closest = separation_.query(scene, pair, corners, tick.work);
     ContactPatch<Piece, MeshScalar> patch(scene.piece(pair.piece), scene.incidence(pair.piece), scene.object(), separation_.axes(), scene.reference(),
-                                          scene.patch_height(), assumes_valleys_, near_vertices_);
+                                          scene.patch_height(), may_assume_, near_vertices_);
     pair.state = patch.find(pair.triangle, corners, closest, pair.keeps_ghost, patch_rows_) ? PairState::repeats : PairState::ghost;
     pair.is_filler = patch.is_filler();
     if (separation_.is_at_start()) pair.is_ghost = pair.state == PairState::ghost;
@@ -292,7 +292,7 @@ class Linearisation {
   VertexSet near_vertices_;  // likewise
   Pose<Scalar> start_;  // where the motion starts
   Scalar reach_ = Scalar(0);
-  bool assumes_valleys_ = true;
+  bool may_assume_ = true;
   bool has_rows_ = false;  // since the last `clear`
   bool leaves_out_pairs_ = false;
 };

@@ -90,7 +90,7 @@ class TrialMotionSearch {
     Pose<Scalar> pose;  // where the next one is
     int count = 0;
     bool is_measured = false;  // the last one was: not carried
-    bool assumes_valleys = true;
+    bool may_assume = true;
     bool is_taken_back = false;  // the second step took back the first
     Scalar first = 0, previous = 0;  // lengths of steps [m]
     Scalar left_out = 0;  // of the margin, by the step that the trust region cut: what comes free after it leaves out as much [m]
@@ -112,7 +112,7 @@ class TrialMotionSearch {
       is_done = !rounds_.is_measured || linearisation_.start_measured(scene, start_, reach, tick, budget.limit());
     } else {
       rounds_.is_measured = !(motion_.is_capped && linearisation_.carry_to(scene, rounds_.pose, tick));
-      is_done = !rounds_.is_measured || linearisation_.move_to(scene, rounds_.pose, rounds_.assumes_valleys, tick, budget.limit());
+      is_done = !rounds_.is_measured || linearisation_.move_to(scene, rounds_.pose, rounds_.may_assume, tick, budget.limit());
     }
     const bool may_solve = !rounds_.is_measured || budget.allows_step(tick.work) || (is_resumed && tick.work == 0);
     is_measuring_ = !(is_done && may_solve);
@@ -174,7 +174,7 @@ class TrialMotionSearch {
   bool finish_round(const Scene& scene, Scalar last, Scalar length, Tick<MeshScalar>& tick) noexcept {
     const auto& problem = linearisation_.problem();
     const bool rests_on_assumption = problem.rests_on_assumption();
-    rounds_.assumes_valleys = rounds_.assumes_valleys && !rests_on_assumption;  // with it again, two linearisations would take turns
+    rounds_.may_assume = rounds_.may_assume && !rests_on_assumption;  // with it again, two linearisations would take turns
     // A short step is the last one where it is very short, or where steps shrink so fast, and go on to, that the next one would be.
     const bool shrinks_fast = problem.is_newton() && last < rounds_.previous / 10 && last * last < rounds_.previous * scene.very_short() / 2;
     const bool is_short = last < scene.step_tolerance() && (shrinks_fast || last < scene.very_short());
